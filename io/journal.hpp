@@ -48,7 +48,7 @@ public:
     }
     /// Returns all numbers that have not been read.
     template <class T>
-    std::vector<T> rest() {
+    std::vector<T> remaining() {
         return get<T>(left_ / sizeof(T));
     }
     /// Returns true if all numbers have been read.

@@ -3,10 +3,10 @@
 #include "io/machine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <optional>
 #include <sstream>
 #include <thread>
@@ -76,7 +76,7 @@ public:
     const AvailableMemory& get() const { return least_; }
 
 private:
-    AvailableMemory least_{std::numeric_limits<double>::infinity(), "nothing"};
+    AvailableMemory least_{HUGE_VAL, "nothing"};
 };
 
 } // namespace

@@ -152,22 +152,22 @@ HeightMap read_map_text(std::string_view text, const std::string& file) {
     bool between = true;
     for (std::size_t line = 1, at = 0; at < text.size(); ++line) {
         const std::size_t end = std::min(text.find('\n', at), text.size());
-        std::string_view rest = text.substr(at, end - at);
+        std::string_view left = text.substr(at, end - at);
         at = end + 1;
-        const char* const start = rest.data();
+        const char* const start = left.data();
         const auto place = [&](const char* word) {
             return fmt::format("{}:{}:{}", file, line, word - start + 1);
         };
-        if (const std::size_t hash = rest.find('#'); hash != std::string_view::npos) {
-            if (is_header(rest.substr(hash)))
+        if (const std::size_t hash = left.find('#'); hash != std::string_view::npos) {
+            if (is_header(left.substr(hash)))
                 refuse(place(start + hash), "the matrix has a header",
                        fmt::format("'{}', and of a plain matrix the numbers alone are read",
-                                   rest.substr(hash, 60)),
+                                   left.substr(hash, 60)),
                        convert_first(file));
-            rest = rest.substr(0, hash);
+            left = left.substr(0, hash);
         }
         std::size_t columns = 0;
-        for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
+        for (std::string_view word = take_word(left); !word.empty(); word = take_word(left)) {
             const std::optional<double> value = number_of(word);
             if (!value)
                 refuse(

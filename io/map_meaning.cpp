@@ -189,7 +189,7 @@ void note_doubts(HeightMap& map, std::string_view key) {
     for (std::size_t parts = 2; parts <= 8 && rows >= 8 * parts; ++parts) {
         if (rows % parts != 0) continue;
         std::vector<double> others;
-        double least = std::numeric_limits<double>::infinity();
+        double least = HUGE_VAL;
         for (std::size_t y = 0; y < step.size(); ++y)
             if ((y + 1) % (rows / parts) == 0)
                 least = std::min(least, step[y]);

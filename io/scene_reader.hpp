@@ -18,9 +18,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -68,8 +68,8 @@ private:
 
 /// Interval of values that a number may take.
 struct Range {
-    double low = -std::numeric_limits<double>::infinity();
-    double high = std::numeric_limits<double>::infinity();
+    double low = -HUGE_VAL;
+    double high = HUGE_VAL;
     bool low_open = false; ///< low itself is not allowed
     bool high_open = false;
 
@@ -80,11 +80,9 @@ struct Range {
 /// Returns the interval of all numbers.
 inline Range any() { return {}; }
 /// Returns the interval of numbers above zero.
-inline Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true, false}; }
+inline Range positive() { return {0.0, HUGE_VAL, true, false}; }
 /// Returns the interval of numbers from `low` on.
-inline Range at_least(double low) {
-    return {low, std::numeric_limits<double>::infinity(), false, false};
-}
+inline Range at_least(double low) { return {low, HUGE_VAL, false, false}; }
 /// Returns the closed interval.
 inline Range between(double low, double high) { return {low, high, false, false}; }
 

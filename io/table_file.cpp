@@ -63,8 +63,8 @@ std::vector<Column> columns_named(std::string_view line) {
     for (char& c : text)
         if (c == ',' || c == ';' || c == '|' || c == ':' || c == '#' || c == '=') c = ' ';
     std::vector<Column> columns;
-    std::string_view rest = text;
-    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
+    std::string_view left = text;
+    for (std::string_view word = take_word(left); !word.empty(); word = take_word(left)) {
         const std::size_t slash = word.rfind('/'); // "r/nm"
         if (slash != std::string_view::npos && is_unit(word.substr(slash + 1)) &&
             meaning_of(std::string(word.substr(0, slash))) != Meaning::other) {

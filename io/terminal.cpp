@@ -328,10 +328,10 @@ std::string progress_line(const Progress::State& state, double seconds, long lon
     if (state.fraction >= 0.0) line += fmt::format("{:.0f} %, ", 100.0 * state.fraction);
     // The phase in parts that a comma ends, then the rates.
     std::vector<std::string> parts;
-    for (std::string_view rest = state.phase; !rest.empty();) {
-        const std::size_t end = std::min(rest.find(", "), rest.size());
-        parts.push_back((parts.empty() ? "" : ", ") + std::string(rest.substr(0, end)));
-        rest.remove_prefix(std::min(rest.size(), end + 2));
+    for (std::string_view left = state.phase; !left.empty();) {
+        const std::size_t end = std::min(left.find(", "), left.size());
+        parts.push_back((parts.empty() ? "" : ", ") + std::string(left.substr(0, end)));
+        left.remove_prefix(std::min(left.size(), end + 2));
     }
     if (seconds > 0.0 && steps_done > 0) {
         parts.push_back(fmt::format(" | step {}", state.steps));

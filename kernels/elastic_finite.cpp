@@ -47,9 +47,9 @@ struct RowsAround {
 };
 
 /// Adds to the rows of nodes around it what the row of cells whose lower corners begin at element
-/// `line` gives. with_cells: everything the cells own (pressed: the dilatation too); without: the
+/// `line` gives. with_cells: everything the cells own (dilated: the dilatation too); without: the
 /// springs in the plane alone.
-template <bool with_cells, bool pressed>
+template <bool with_cells, bool dilated>
 void cell_row(const VectorVolume<const double>& u, std::ptrdiff_t line, const finite::Cell<V>& cell,
               const finite::Stiffness<V>& in_plane, const RowsAround& to) {
     constexpr int rows = with_cells ? 4 : 2;
@@ -60,7 +60,7 @@ void cell_row(const VectorVolume<const double>& u, std::ptrdiff_t line, const fi
     for (int x = -V::width; x < to.x1; x += V::width) {
         finite::Corners<V> corner, f;
         finite::load<rows>(u, line + x, corner);
-        finite::forces<with_cells, pressed>(corner, cell, in_plane, f);
+        finite::forces<with_cells, dilated>(corner, cell, in_plane, f);
 #pragma GCC unroll 4
         for (int r = 0; r < rows; ++r) {
             f.west[r].x = f.west[r].x + shift_right(before[r].x, f.east[r].x);
@@ -88,9 +88,9 @@ Row row_of(const VectorPlane<double>& force, Patch nodes, int y) {
     return {force.x.line(y), force.y.line(y), force.z.line(y), nodes.x0, nodes.x1};
 }
 
-/// Computes the forces of a row of cells. pressed: with a dilatation term; at nu = 1/4 there is
+/// Computes the forces of a row of cells. dilated: with a dilatation term; at nu = 1/4 there is
 /// none, and no volume to compute.
-template <bool pressed>
+template <bool dilated>
 void cell_layer(const VectorVolume<const double>& u, int z, const LevelCell& constants,
                 Patch lower_nodes, const VectorPlane<double>& lower, Patch upper_nodes,
                 const VectorPlane<double>& upper) {
@@ -100,7 +100,7 @@ void cell_layer(const VectorVolume<const double>& u, int z, const LevelCell& con
     const int y0 = lower_nodes.y0 < upper_nodes.y0 ? lower_nodes.y0 : upper_nodes.y0;
     const int y1 = lower_nodes.y1 > upper_nodes.y1 ? lower_nodes.y1 : upper_nodes.y1;
     for (int y = y0 - 1; y < y1; ++y)
-        cell_row<true, pressed>(u, z * u.x.plane + y * u.x.row, cell, in_plane,
+        cell_row<true, dilated>(u, z * u.x.plane + y * u.x.row, cell, in_plane,
                                 {{row_of(lower, lower_nodes, y), row_of(lower, lower_nodes, y + 1),
                                   row_of(upper, upper_nodes, y), row_of(upper, upper_nodes, y + 1)},
                                  x1});

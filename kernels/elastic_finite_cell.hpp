@@ -164,8 +164,8 @@ ASPERITY_INLINE Volume<V> volume_of(const Corners<V>& u, const Cell<V>& c) {
 
 /// Adds the force of the mean dilatation to component i of the eight corners.
 template <class V, class Component>
-ASPERITY_INLINE void press(V p, const Triple<V>& cofactor, Corners<V>& f,
-                           const Component& component) {
+ASPERITY_INLINE void add_pressure(V p, const Triple<V>& cofactor, Corners<V>& f,
+                                  const Component& component) {
     const V x = p * cofactor.x, y = p * cofactor.y, z = p * cofactor.z;
     const V sum = y + z, difference = y - z;
     const V corner[4] = {-sum, difference, -difference, sum};
@@ -177,23 +177,23 @@ ASPERITY_INLINE void press(V p, const Triple<V>& cofactor, Corners<V>& f,
 }
 
 template <class V>
-ASPERITY_INLINE void press(const Corners<V>& u, const Cell<V>& c, Corners<V>& f) {
+ASPERITY_INLINE void add_pressure(const Corners<V>& u, const Cell<V>& c, Corners<V>& f) {
     const Volume<V> volume = volume_of(u, c);
     const V p = -(c.pressure * volume.theta);
-    press(p, volume.cofactor[0], f, [](Triple<V>& v) -> V& { return v.x; });
-    press(p, volume.cofactor[1], f, [](Triple<V>& v) -> V& { return v.y; });
-    press(p, volume.cofactor[2], f, [](Triple<V>& v) -> V& { return v.z; });
+    add_pressure(p, volume.cofactor[0], f, [](Triple<V>& v) -> V& { return v.x; });
+    add_pressure(p, volume.cofactor[1], f, [](Triple<V>& v) -> V& { return v.y; });
+    add_pressure(p, volume.cofactor[2], f, [](Triple<V>& v) -> V& { return v.z; });
 }
 
-/// Computes the forces on the corners: with `cells` of all springs of the cells, with `pressed`
+/// Computes the forces on the corners: with `cells` of all springs of the cells, with `dilated`
 /// also of the dilatation; otherwise of the springs in the lower plane alone, without reading the
 /// upper corners.
-template <bool cells, bool pressed, class V>
+template <bool cells, bool dilated, class V>
 ASPERITY_INLINE void forces(const Corners<V>& u, const Cell<V>& c, const Stiffness<V>& in_plane,
                             Corners<V>& f) {
     pull_in_plane(u, c, in_plane, f);
     if constexpr (cells) pull_upwards(u, c, f);
-    if constexpr (cells && pressed) press(u, c, f);
+    if constexpr (cells && dilated) add_pressure(u, c, f);
 }
 
 /// Returns the energy of the cells whose lower corners are V's nodes, eV, by the definition of
@@ -213,8 +213,8 @@ ASPERITY_INLINE V energy(const VectorVolume<const double>& u, std::ptrdiff_t at,
         r.x = r.x + V(spring.dx * c.edge);
         r.y = r.y + V(spring.dy * c.edge);
         r.z = r.z + V(spring.dz * c.edge);
-        const double rest = spring.diagonal ? std::numbers::sqrt2 * c.edge : c.edge;
-        const V stretch = sqrt(squared(r)) - V(rest);
+        const double unstretched = spring.diagonal ? std::numbers::sqrt2 * c.edge : c.edge;
+        const V stretch = sqrt(squared(r)) - V(unstretched);
         V& sum = spring.diagonal ? diagonals : edges;
         sum = fma(stretch, stretch, sum);
     }

@@ -6,7 +6,7 @@
 #include "kernels/interface_block.hpp"
 #include "kernels/pack_step.hpp"
 
-#include <limits>
+#include <cmath>
 #include <type_traits>
 
 namespace asperity::ASPERITY_VARIANT {
@@ -14,7 +14,7 @@ namespace asperity::ASPERITY_VARIANT {
 namespace {
 
 /// Height below every other one: a hole, whose height is NaN, is not above it.
-constexpr double below_all = -std::numeric_limits<double>::infinity();
+constexpr double below_all = -HUGE_VAL;
 
 /// Calls use(by_site, yields) with true or false as types: whether the law has factors at each
 /// site, and whether sites yield.
@@ -139,12 +139,12 @@ WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule,
             const Real z = u + momentum * Real::load(step + lane);
             const Real force = norm * Real::load(elastic + lane) + load;
             const Real target = z + base - compliance * force;
-            Real rest = law.rest(z + base, target, spring), yield_gap(0.0);
+            Real equilibrium = law.equilibrium(z + base, target, spring), yield_gap(0.0);
             if constexpr (yields) { // the force is the smaller one, and so is the gap
                 yield_gap = Real::load_first(row.yield_gap + x + lane, here);
-                rest = min(rest, target + compliance * law.force(yield_gap));
+                equilibrium = min(equilibrium, target + compliance * law.force(yield_gap));
             }
-            const Real gap = select(solid, rest, target);
+            const Real gap = select(solid, equilibrium, target);
             const Real next = gap - base, way = next - z;
             next.store_first(row.next + x + lane, here);
             Real of_law = gap; // gap of the law

@@ -39,10 +39,10 @@ struct CosineSine {
 };
 /// Returns cosine and sine of the angle 2 pi (bits + 1/2) / 2^32, within 2e-16.
 ASPERITY_INLINE CosineSine cosine_and_sine(std::uint32_t bits) {
-    // The nearest quarter of a turn, and the rest x, |x| <= pi/4.
+    // The nearest quarter of a turn, and the remainder x, |x| <= pi/4.
     const std::uint32_t quarter = (bits + 0x20000000u) >> 30;
-    const auto rest = static_cast<std::int32_t>(bits - (quarter << 30));
-    const double x = (rest + 0.5) * 1.4629180792671596e-9; // 2 pi / 2^32
+    const auto remainder = static_cast<std::int32_t>(bits - (quarter << 30));
+    const double x = (remainder + 0.5) * 1.4629180792671596e-9; // 2 pi / 2^32
     const double q = x * x;
     double c = 1.0, s = 1.0;
     ASPERITY_UNROLL(8)

@@ -88,7 +88,7 @@ public:
         }
         /// Returns the gap at which a spring to the gap `target` holds a site in equilibrium, Å;
         /// the increasing part of the force is fixed at its value at `gap`.
-        ASPERITY_INLINE V rest(V gap, V target, V spring) const {
+        ASPERITY_INLINE V equilibrium(V gap, V target, V spring) const {
             if (!repels) { // nothing falls but the repulsion
                 const V held = spring * target + attraction(gap);
                 return select(held > same<V>(0.0), held / spring, held / (spring + stiffness));

@@ -57,7 +57,7 @@ public:
         const Pair<P> pair(potential);
         contact_ = steepest();
         if (tail) {
-            reach_ = std::numeric_limits<double>::infinity();
+            reach_ = HUGE_VAL;
         } else {
             reach_ = potential.cutoff;
             shift_ = pair.shift;
@@ -97,7 +97,7 @@ public:
         /// Returns the gap at which a spring to the gap `target` holds a site in equilibrium, Å:
         /// spring (target - g) + force(g) = 0. Beyond its steepest place the attraction is fixed at
         /// its value at `gap`, the gap of the iteration before, from which Newton's method starts.
-        ASPERITY_INLINE V rest(V gap, V target, V spring) const {
+        ASPERITY_INLINE V equilibrium(V gap, V target, V spring) const {
             constexpr int newton_steps = 3;
             const V from = max(steepest, gap);
             const V outside = target + force(from) / spring; // if the site ends in the decay
@@ -214,7 +214,7 @@ public:
         }
         /// Returns the gap at which a spring to the gap `target` holds a site in equilibrium, Å;
         /// the attraction is fixed at its value at `gap`.
-        ASPERITY_INLINE V rest(V gap, V target, V spring) const {
+        ASPERITY_INLINE V equilibrium(V gap, V target, V spring) const {
             const V pull = spring * target - tension * decay(gap);
             return select(pull > same<V>(0.0), pull / spring, pull / (spring + stiffness));
         }

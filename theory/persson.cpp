@@ -15,7 +15,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -92,7 +91,7 @@ public:
     /// Returns x of the largest g0, searched without a start. `missed`: the least excess if there
     /// is none.
     [[nodiscard]] std::optional<double> search(double& missed) const {
-        missed = std::numeric_limits<double>::infinity();
+        missed = HUGE_VAL;
         if (!(highest_ > lowest_)) return std::nullopt;
         const auto f = [&](double x) { return excess(x); };
         double high = pressing_ ? 1 : std::log((highest_ - lowest_) / contact_.work_of_adhesion);
@@ -113,7 +112,7 @@ public:
         return pressing_ ? std::optional(0.0) : std::nullopt;
     }
     /// Returns x of the largest g0, next to the root on a coarser grid.
-    [[nodiscard]] std::optional<double> follow(double x, double& missed) const {
+    [[nodiscard]] std::optional<double> search_near(double x, double& missed) const {
         const double step = pressing_ ? 1e-3 : 1e-2;
         const auto near =
             root_near([&](double y) { return excess(y); }, x, step, 20 * step, close_);
@@ -182,7 +181,7 @@ std::optional<ContactState> conforming(const AdhesiveContact& c) {
 std::optional<ContactState> solve_on(const OnGrid& grid, const AdhesiveContact& c,
                                      std::optional<double>& x, double& missed) {
     if (c.work_of_adhesion > 0) {
-        x = x ? grid.follow(*x, missed) : grid.search(missed);
+        x = x ? grid.search_near(*x, missed) : grid.search(missed);
         if (!x) return std::nullopt;
         return state_of(c, grid.at, grid.path(grid.g0(*x)));
     }
@@ -199,7 +198,7 @@ ContactState solve(const AdhesiveContact& c) {
     if (auto full = conforming(c)) return *full;
     ContactState s;
     std::optional<double> x;
-    double missed = std::numeric_limits<double>::infinity();
+    double missed = HUGE_VAL;
     for (int level = 0; level <= finest; ++level) {
         auto now = solve_on(OnGrid(c, level), c, x, missed);
         if (!now && level == 0 && missed < 0.03) continue; // a coarse grid may miss the very end
@@ -236,7 +235,7 @@ CriticalRoughness critical_roughness(const AdhesiveContact& c) {
     const auto full = root_near([&](double x) { return -full_contact(at_roughness(x)).gamma; },
                                 log_h, 0.1, reach, 1e-12);
     CriticalRoughness result;
-    result.full_contact_h_rms = full ? std::exp(*full) : std::numeric_limits<double>::infinity();
+    result.full_contact_h_rms = full ? std::exp(*full) : HUGE_VAL;
     for (const int level : {0, 1}) {
         const auto excess = [&](double x) {
             const AdhesiveContact scaled = at_roughness(x);

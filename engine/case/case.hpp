@@ -85,8 +85,8 @@ struct Case {
     std::vector<std::pair<std::string, std::uint32_t>> digests() const;
     /// Returns true if the path has a segment of this kind.
     bool has(Segment::Kind kind) const;
-    /// Returns true if the path has segments other than approach and pull-off.
-    bool guided() const;
+    /// Returns true if the path has approaches, pull-offs and relaxations only.
+    bool is_cycle() const;
     /// Returns true if the first segment is of this kind.
     bool starts_with(Segment::Kind kind) const { return !path().empty() && path()[0].kind == kind; }
     /// Returns the area of the interface, Å^2.

@@ -16,12 +16,74 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string_view>
 
 namespace asperity {
 
 namespace {
+
+/// Adds a problem of a segment: what is wrong with its place, why, and what to do instead.
+using RefuseSegment =
+    std::function<void(const std::string& why_not, const char* why, const std::string& instead)>;
+
+/// Checks a slide. apart: the path is beyond the interaction range before the slide; loaded: the
+/// path has been led to a load.
+void check_slide(const Case& c, const Segment& segment, bool apart, bool loaded,
+                 const RefuseSegment& refuse) {
+    const bool wall = c.scene.interface.kind == InterfaceKind::wall;
+    if (apart)
+        refuse("beyond the interaction range", "nothing slides there",
+               "put an \"approach\" before it");
+    if (c.scene.interface.tail)
+        refuse("with interface.tail = true", "the tail has no lateral forces",
+               "take a larger interface.cutoff and tail = false");
+    if (!wall && c.scene.interface.frictionless)
+        refuse("without lateral forces", "with interface.frictionless nothing resists it",
+               "take frictionless = false");
+    if (c.scene.has_free_edges())
+        refuse("over a map with free edges",
+               "the map moves periodically, and its edges would move along",
+               "take surface.boundary = \"periodic\"");
+    if (c.scene.interface.hardness && wall)
+        refuse("over a surface that yields",
+               "the heights move under the block, and a set by sliding is another one",
+               "leave interface.hardness out");
+    if (c.scene.surface.counter.given() && c.scene.surface.radius)
+        refuse("of a curved solid over another (surface.counter, surface.radius)",
+               "the sum of two spheres moves with neither of them",
+               "leave surface.radius or surface.counter out");
+    if (c.scene.surface.counter.given() && segment.until_steady)
+        refuse("over a second solid", "a rough block has no shape that slides on unchanged",
+               "leave \"until steady\" out, and give the slide a length");
+    if (c.scene.surface.counter.given() && c.output.stress.points != StressPoints::none &&
+        c.output.stress.friction == 0.0)
+        refuse("over a second solid with output.stress",
+               "of two rough solids the pressure acts on slopes of both, and the friction "
+               "at each place is not known",
+               "give output.stress_friction, a friction in phase with the pressure");
+    for (const io::SiteQuantity& of : c.scene.interface.site_maps())
+        refuse(fmt::format("over a field of the {}", of.words),
+               "the heights move under the block, and the field would stay",
+               fmt::format("give interface.{} a number", of.name));
+    if (wall && c.effects.dynamic)
+        refuse("over a wall on a dynamic path",
+               "a wall moves under a block that is in force balance",
+               "take drive.mode = \"quasistatic\"");
+    if (!wall && (segment.under || segment.until_steady))
+        refuse("over atoms",
+               "a slide over atoms is at the same height, and as long as the scene says",
+               "leave \"under load\" and \"until steady\" out, or take "
+               "interface.kind = \"wall\"");
+    if (segment.under && !loaded)
+        refuse("after a segment that leads to no load", "there is none to keep",
+               "put a \"load\" before it");
+    if (segment.under && !c.scene.block.prony.empty() && c.scene.drive.control == Control::top)
+        refuse("with block.prony and drive.control = \"top\"",
+               "a viscoelastic block under load would creep as a whole",
+               "take drive.control = \"mean-height\"");
+}
 
 /// Checks that the segments of the path can follow one another.
 void check_path(const Case& c, io::Problems& problems) {
@@ -30,11 +92,10 @@ void check_path(const Case& c, io::Problems& problems) {
                      "for example path = [\"approach\", \"pull-off\"]");
     bool apart = true;   // beyond the interaction range
     bool loaded = false; // a load was led to, and no height since
-    const bool wall = c.scene.interface.kind == InterfaceKind::wall;
     for (std::size_t i = 0; i < c.path().size(); ++i) {
         const Segment& segment = c.path()[i];
-        const auto refuse = [&](const std::string& why_not, const char* why,
-                                const std::string& instead) {
+        const RefuseSegment refuse = [&](const std::string& why_not, const char* why,
+                                         const std::string& instead) {
             problems.add("drive.path", fmt::format("has \"{}\" {}", segment.text, why_not), why,
                          instead);
         };
@@ -71,57 +132,7 @@ void check_path(const Case& c, io::Problems& problems) {
             loaded = false;
             break;
         case Segment::slide:
-            if (after_all)
-                refuse("beyond the interaction range", "nothing slides there",
-                       "put an \"approach\" before it");
-            if (c.scene.interface.tail)
-                refuse("with interface.tail = true", "the tail has no lateral forces",
-                       "take a larger interface.cutoff and tail = false");
-            if (!wall && c.scene.interface.frictionless)
-                refuse("without lateral forces", "with interface.frictionless nothing resists it",
-                       "take frictionless = false");
-            if (c.scene.has_free_edges())
-                refuse("over a map with free edges",
-                       "the map moves periodically, and its edges would move along",
-                       "take surface.boundary = \"periodic\"");
-            if (c.scene.interface.hardness && wall)
-                refuse("over a surface that yields",
-                       "the heights move under the block, and a set by sliding is another one",
-                       "leave interface.hardness out");
-            if (c.scene.surface.counter.given() && c.scene.surface.radius)
-                refuse("of a curved solid over another (surface.counter, surface.radius)",
-                       "the sum of two spheres moves with neither of them",
-                       "leave surface.radius or surface.counter out");
-            if (c.scene.surface.counter.given() && segment.until_steady)
-                refuse("over a second solid", "a rough block has no shape that slides on unchanged",
-                       "leave \"until steady\" out, and give the slide a length");
-            if (c.scene.surface.counter.given() && c.output.stress.points != StressPoints::none &&
-                c.output.stress.friction == 0.0)
-                refuse("over a second solid with output.stress",
-                       "of two rough solids the pressure acts on slopes of both, and the friction "
-                       "at each place is not known",
-                       "give output.stress_friction, a friction in phase with the pressure");
-            for (const io::SiteQuantity& of : c.scene.interface.site_maps())
-                refuse(fmt::format("over a field of the {}", of.words),
-                       "the heights move under the block, and the field would stay",
-                       fmt::format("give interface.{} a number", of.name));
-            if (wall && c.effects.dynamic)
-                refuse("over a wall on a dynamic path",
-                       "a wall moves under a block that is in force balance",
-                       "take drive.mode = \"quasistatic\"");
-            if (!wall && (segment.under || segment.until_steady))
-                refuse("over atoms",
-                       "a slide over atoms is at the same height, and as long as the scene says",
-                       "leave \"under load\" and \"until steady\" out, or take "
-                       "interface.kind = \"wall\"");
-            if (segment.under && !loaded)
-                refuse("after a segment that leads to no load", "there is none to keep",
-                       "put a \"load\" before it");
-            if (segment.under && !c.scene.block.prony.empty() &&
-                c.scene.drive.control == Control::top)
-                refuse("with block.prony and drive.control = \"top\"",
-                       "a viscoelastic block under load would creep as a whole",
-                       "take drive.control = \"mean-height\"");
+            check_slide(c, segment, after_all, loaded, refuse);
             break;
         case Segment::hold:
             if (!c.effects.dynamic && c.scene.block.prony.empty())

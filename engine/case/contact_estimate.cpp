@@ -92,8 +92,9 @@ namespace {
 
 /// Returns the attraction of a wall outside a square of this width below a sphere, eV/Å.
 /// site: area of a site, Å^2.
-/// rest: gap of flat surfaces at rest, Å; end: distance from the axis at which the sphere ends, Å.
-double attraction_outside(const WallLaw& wall, double site, double rest,
+/// flat_gap: gap of flat surfaces at rest, Å; end: distance from the axis at which the sphere ends,
+/// Å.
+double attraction_outside(const WallLaw& wall, double site, double flat_gap,
                           const SphereOnBlock& sphere, double contact_radius, double width,
                           double end) {
     constexpr int points = 400;
@@ -106,7 +107,7 @@ double attraction_outside(const WallLaw& wall, double site, double rest,
                 const double r = half * std::exp((i + 0.5) * step), x = half / r;
                 const double outside =
                     x > 1.0 / std::numbers::sqrt2 ? 4.0 / std::numbers::pi * std::acos(x) : 1.0;
-                const double gap = rest + sphere.gap(r, contact_radius);
+                const double gap = flat_gap + sphere.gap(r, contact_radius);
                 force -=
                     std::min(0.0, law.force(gap)) * outside * 2.0 * std::numbers::pi * r * r * step;
             }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace asperity {
 
@@ -111,7 +110,7 @@ std::vector<double> noise(std::span<const double> x, std::span<const double> y) 
     const std::size_t n = x.size();
     std::vector<double> single(n), smooth(n);
     for (std::size_t i = 0; i < n; ++i) {
-        double least = std::numeric_limits<double>::infinity();
+        double least = HUGE_VAL;
         for (const auto& [below, above] :
              {std::array<std::size_t, 2>{2, 2}, {3, 3}, {0, 6}, {6, 0}})
             if (i >= below && i + above < n)

@@ -31,8 +31,75 @@ Effect device_effect(const Case& c) {
 }
 
 /// Returns the key that makes a path one of equilibria, with its value.
-std::string key_of_rest(const Case& c) {
+std::string key_of_equilibria(const Case& c) {
     return c.has(Segment::relax) ? "drive.path = [\"relax\"]" : "drive.mode = \"quasistatic\"";
+}
+
+/// Returns the effect of fields in place of numbers of the interface.
+Effect site_maps_effect(const Scene::Interface& interface) {
+    std::vector<std::string> keys, fields; // keys that may be fields, and those that are
+    for (const io::SiteQuantity& of : io::site_quantities) {
+        keys.push_back(fmt::format("interface.{}", of.name));
+        if (const SiteMapKeys& map = interface.maps[of.map]; map.given())
+            fields.push_back(fmt::format("{} = \"{}\"", keys.back(), map.source));
+    }
+    return {!fields.empty(), fields.empty()
+                                 ? fmt::format("{} are no fields", fmt::join(keys, " and "))
+                                 : fmt::format("{}", fmt::join(fields, ", "))};
+}
+
+Effect yielding_effect(const Scene::Interface& interface) {
+    if (const SiteMapKeys& map = interface.maps[SiteMapOf::hardness]; map.given())
+        return {interface.hardness.has_value(),
+                fmt::format("interface.hardness = \"{}\"", map.source)};
+    if (!interface.hardness) return {false, "interface.hardness = \"none\""};
+    return {true, fmt::format("interface.hardness = {:.6g} GPa", *interface.hardness)};
+}
+
+/// Returns an effect of the block or of an elastic second solid: the block's, unless the second
+/// solid alone has it.
+Effect of_either(bool of_block, bool of_counter, std::string why_of_block,
+                 std::string why_of_counter) {
+    return {of_block || of_counter,
+            of_block || !of_counter ? std::move(why_of_block) : std::move(why_of_counter)};
+}
+
+Effect layers_effect(const Scene& s) {
+    const auto why = [](const char* key, const auto& list) {
+        return list.empty() ? fmt::format("{} = []", key)
+                            : fmt::format("{} has {} of them", key, list.size());
+    };
+    const Scene::Surface::Counter& counter = s.surface.counter;
+    return of_either(!s.block.layers.empty(), counter.is_elastic() && !counter.layers.empty(),
+                     why("block.layers", s.block.layers),
+                     why("surface.counter_layers", counter.layers));
+}
+
+Effect surface_stress_effect(const Scene& s) {
+    const auto why = [](const char* key, double value) {
+        return fmt::format("{} = {:.4g} N/m", key, value);
+    };
+    const Scene::Surface::Counter& counter = s.surface.counter;
+    return of_either(s.block.surface_stress > 0.0,
+                     counter.is_elastic() && counter.surface_stress > 0.0,
+                     why("block.surface_stress", s.block.surface_stress),
+                     why("surface.counter_surface_stress", counter.surface_stress));
+}
+
+/// Sets the effects of the section [output].
+void add_outputs(const Case& c, bool follows_path, Effects& e) {
+    const Scene& s = c.scene;
+    const MapTimes& m = c.maps;
+    e.maps.on = m.relaxed || m.pull_off || m.segments || (follows_path && m.every) ||
+                !m.after_approach.empty();
+    e.maps.why =
+        e.maps ? "output.fields asks for them" : "output.fields asks for no state of this path";
+    e.trajectory = {s.output.trajectory.has_value(),
+                    s.output.trajectory
+                        ? fmt::format("output.trajectory = {}", *s.output.trajectory)
+                        : "output.trajectory = \"none\""};
+    e.checkpoints = {s.output.checkpoint > 0.0,
+                     fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
 }
 
 } // namespace
@@ -61,7 +128,7 @@ bool Effects::has(std::string_view name) const {
 
 Effect dynamic_effect(const Case& c) {
     if (c.scene.is_dynamic()) return {true, "the path is dynamic"};
-    return {false, "a state of force balance: " + key_of_rest(c)};
+    return {false, "a state of force balance: " + key_of_equilibria(c)};
 }
 
 Effects effects_of(const Case& c) {
@@ -70,8 +137,8 @@ Effects effects_of(const Case& c) {
     const bool follows_path =
         std::any_of(c.path().begin(), c.path().end(),
                     [](const Segment& segment) { return segment.kind != Segment::relax; });
-    const std::string rest = key_of_rest(c);
-    const std::string no_time = "a state of force balance: " + rest;
+    const std::string equilibria = key_of_equilibria(c);
+    const std::string no_time = "a state of force balance: " + equilibria;
     const auto timed = [&](bool on, std::string why) {
         return dynamic ? Effect{on, std::move(why)} : Effect{false, no_time};
     };
@@ -106,15 +173,7 @@ Effects effects_of(const Case& c) {
     e.sliding.why = fmt::format("drive.path has {} \"slide\"", e.sliding ? "a" : "no");
     e.tail = pairs(s.interface.tail, fmt::format("interface.tail = {}", s.interface.tail),
                    ": a part of its law");
-    std::vector<std::string> keys, fields; // keys that may be fields, and those that are
-    for (const io::SiteQuantity& of : io::site_quantities) {
-        keys.push_back(fmt::format("interface.{}", of.name));
-        if (const SiteMapKeys& map = s.interface.maps[of.map]; map.given())
-            fields.push_back(fmt::format("{} = \"{}\"", keys.back(), map.source));
-    }
-    e.site_maps = {!fields.empty(), fields.empty()
-                                        ? fmt::format("{} are no fields", fmt::join(keys, " and "))
-                                        : fmt::format("{}", fmt::join(fields, ", "))};
+    e.site_maps = site_maps_effect(s.interface);
     e.curvature = {s.surface.radius.has_value(),
                    s.surface.radius ? fmt::format("surface.radius = {:.6g} Å", *s.surface.radius)
                                     : "surface.radius = \"none\""};
@@ -127,36 +186,14 @@ Effects effects_of(const Case& c) {
                       : fmt::format("block.prony has {} of them", s.block.prony.size())};
     const Scene::Surface::Counter& counter = s.surface.counter;
     e.counter = {counter.given(), fmt::format("surface.counter = \"{}\"", counter.file)};
-    const auto of_either = [&](bool own, bool others, auto of_own, auto of_other) {
-        return Effect{own || (counter.is_elastic() && others),
-                      own || !(counter.is_elastic() && others) ? of_own() : of_other()};
-    };
-    const auto layers = [](const char* key, const auto& list) {
-        return list.empty() ? fmt::format("{} = []", key)
-                            : fmt::format("{} has {} of them", key, list.size());
-    };
-    e.layers = of_either(
-        !s.block.layers.empty(), !counter.layers.empty(),
-        [&] { return layers("block.layers", s.block.layers); },
-        [&] { return layers("surface.counter_layers", counter.layers); });
-    const auto tension = [](const char* key, double value) {
-        return fmt::format("{} = {:.4g} N/m", key, value);
-    };
-    e.surface_stress = of_either(
-        s.block.surface_stress > 0.0, counter.surface_stress > 0.0,
-        [&] { return tension("block.surface_stress", s.block.surface_stress); },
-        [&] { return tension("surface.counter_surface_stress", counter.surface_stress); });
-    const SiteMapKeys& hardness = s.interface.maps[SiteMapOf::hardness];
-    e.yielding = {s.interface.hardness.has_value(),
-                  hardness.given() ? fmt::format("interface.hardness = \"{}\"", hardness.source)
-                  : s.interface.hardness
-                      ? fmt::format("interface.hardness = {:.6g} GPa", *s.interface.hardness)
-                      : "interface.hardness = \"none\""};
+    e.layers = layers_effect(s);
+    e.surface_stress = surface_stress_effect(s);
+    e.yielding = yielding_effect(s.interface);
     e.spring = {s.drive.stiffness.has_value() && follows_path,
                 s.drive.stiffness ? fmt::format("drive.stiffness = {:.4g} N/m", *s.drive.stiffness)
                                   : "drive.stiffness = \"none\""};
     e.relaxation = {!dynamic || !finite,
-                    !dynamic ? rest
+                    !dynamic ? equilibria
                     : finite ? "block.strain = \"finite\": states are found wave by wave, and "
                                "waves do not add up"
                              : "a copy of the lowest layer is relaxed where the approach ends"};
@@ -164,17 +201,7 @@ Effects effects_of(const Case& c) {
                      !follows_path ? no_time
                      : dynamic     ? fmt::format("every {} steps (output.series)", s.output.series)
                                    : "always: at every point of a quasi-static path"};
-    const MapTimes& m = c.maps;
-    e.maps.on = m.relaxed || m.pull_off || m.segments || (follows_path && m.every) ||
-                !m.after_approach.empty();
-    e.maps.why =
-        e.maps ? "output.fields asks for them" : "output.fields asks for no state of this path";
-    e.trajectory = {s.output.trajectory.has_value(),
-                    s.output.trajectory
-                        ? fmt::format("output.trajectory = {}", *s.output.trajectory)
-                        : "output.trajectory = \"none\""};
-    e.checkpoints = {s.output.checkpoint > 0.0,
-                     fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
+    add_outputs(c, follows_path, e);
     const NoTheory none = no_theory(s, e);
     e.theory = {none.why.empty(), none.why.empty() ? "always: Persson's theory of this scene"
                                                    : none.key + ": the theories are " + none.limit};

@@ -158,6 +158,8 @@ struct Entry {
                 quantities.back() += " " + word;
         }
     }
+    /// Returns true if the entry names its potential.
+    bool is_named() const { return words.size() > 1; }
 };
 
 /// Returns the form of an entry, "Au D a r0", from a potential's parameters.
@@ -171,73 +173,81 @@ std::string form_of(P p) {
     return form;
 }
 
+/// Reads the numbers of an entry whose potential is p. refuse(what, why) adds a problem with the
+/// remedy `fix` and returns std::nullopt.
+template <class P>
+std::optional<PairPotential> read_pair(Case& c, const Entry& entry, P p, std::string& fix,
+                                       const auto& refuse) {
+    constexpr bool table = std::is_same_v<P, Tabulated>;
+    const Scene& scene = c.scene;
+    if (p.name != LennardJones::name)
+        fix = fmt::format("write \"{0}\" or \"{0} cutoff\" (eV, Å)", form_of(p));
+    struct Member {
+        const char *name, *unit;
+        double* value;
+    };
+    std::vector<Member> members;
+    P::parameters(p, [&](const char* of, const char* unit, double& value, const char*) {
+        members.push_back({of, unit, &value});
+    });
+    const std::size_t needed = members.size();
+    members.push_back({"cutoff", "Å", &p.cutoff});
+    if (entry.words.size() != (entry.is_named() ? 2 : 1) + (table ? 1 : 0) ||
+        entry.quantities.size() < needed || entry.quantities.size() > members.size())
+        return refuse("which is no pair of a type",
+                      fmt::format("{} and {} to {} numbers are needed, and {} stand there",
+                                  table ? "a type, a file" : "a type", needed, members.size(),
+                                  entry.quantities.size()));
+    for (std::size_t k = 0; k < entry.quantities.size(); ++k) {
+        const io::ParsedQuantity read = io::parse_quantity(entry.quantities[k], members[k].unit);
+        *members[k].value = read.value;
+        if (read.why.empty() && std::isfinite(read.value) && read.value > 0.0) continue;
+        if (!read.fix.empty()) fix = read.fix;
+        return refuse(fmt::format("whose {} is '{}'", members[k].name, entry.quantities[k]),
+                      read.why.empty() ? "it must be above zero" : read.why);
+    }
+    const bool has_cutoff = entry.quantities.size() == members.size();
+    if (!has_cutoff && !table) p.cutoff = scene.interface.cutoff.value_or(usual_cutoff(p));
+    const double most = std::min(0.5 * scene.edge(), largest_cell_cutoff);
+    if (p.cutoff > most && (!table || has_cutoff))
+        refuse(fmt::format("whose cutoff is above {:.6g} Å", most),
+               "it may be half the box, and 100 Å, at most");
+    if constexpr (table) {
+        try {
+            const PotentialTable& numbers = table_of(c, entry.words.back());
+            if (entry.quantities.empty())
+                p.cutoff = std::min(cutoff_over(numbers, scene.interface), numbers.last());
+            p = numbers.potential(p.cutoff);
+        } catch (const BadTable& bad) {
+            fix = bad.fix;
+            return refuse(bad.what, bad.why);
+        } catch (const std::invalid_argument& error) {
+            fix = "take a cutoff beyond the well; 4 r0 is usual";
+            return refuse(error.what(), table_format);
+        }
+    }
+    return p;
+}
+
 void find_pairs(Case& c, io::Problems& problems) {
     constexpr const char* key = "interface.pairs";
     const Scene& scene = c.scene;
     std::vector<PairPotential>& pairs = c.simulation.interface.by_type;
-    const double most = std::min(0.5 * scene.edge(), largest_cell_cutoff);
     for (const std::string& text : scene.interface.pairs) {
         const std::string shown = text.size() <= 60 ? text : text.substr(0, 60) + "...";
-        Entry entry(text);
-        std::vector<std::string>& words = entry.words;
+        const Entry entry(text);
         std::string fix = "write \"type epsilon r0\" or \"type epsilon r0 cutoff\", as in \"Au 0.1 "
                           "3.28 13.12\" (eV, Å) or \"Au 100 meV 0.328 nm\"";
         const auto refuse = [&](const std::string& what, const std::string& why) {
             problems.add(key, fmt::format("has \"{}\", {}", shown, what), why, fix);
+            return std::nullopt;
         };
-        const std::string type = words.empty() ? "" : words[0];
-        const bool named = words.size() > 1;
-        const std::string name = named ? words[1] : scene.interface.potential_name();
+        const std::string type = entry.words.empty() ? "" : entry.words[0];
+        const std::string name =
+            entry.is_named() ? entry.words[1] : scene.interface.potential_name();
         std::optional<PairPotential> pair;
-        const bool known = with_potential(scene.interface.potentials, name, [&]<class P>(P p) {
-            if (p.name != LennardJones::name)
-                fix = fmt::format("write \"{0}\" or \"{0} cutoff\" (eV, Å)", form_of(p));
-            struct Member {
-                const char *name, *unit;
-                double* value;
-            };
-            std::vector<Member> members;
-            P::parameters(p, [&](const char* of, const char* unit, double& value, const char*) {
-                members.push_back({of, unit, &value});
-            });
-            const std::size_t needed = members.size();
-            constexpr bool table = std::is_same_v<P, Tabulated>;
-            members.push_back({"cutoff", "Å", &p.cutoff});
-            if (words.size() != (named ? 2 : 1) + (table ? 1 : 0) ||
-                entry.quantities.size() < needed || entry.quantities.size() > members.size())
-                return refuse("which is no pair of a type",
-                              fmt::format("{} and {} to {} numbers are needed, and {} stand there",
-                                          table ? "a type, a file" : "a type", needed,
-                                          members.size(), entry.quantities.size()));
-            for (std::size_t k = 0; k < entry.quantities.size(); ++k) {
-                const io::ParsedQuantity read =
-                    io::parse_quantity(entry.quantities[k], members[k].unit);
-                *members[k].value = read.value;
-                if (read.why.empty() && std::isfinite(read.value) && read.value > 0.0) continue;
-                if (!read.fix.empty()) fix = read.fix;
-                return refuse(fmt::format("whose {} is '{}'", members[k].name, entry.quantities[k]),
-                              read.why.empty() ? "it must be above zero" : read.why);
-            }
-            if (entry.quantities.size() < members.size() && !table)
-                p.cutoff = scene.interface.cutoff.value_or(usual_cutoff(p));
-            if (p.cutoff > most && (!table || entry.quantities.size() == members.size()))
-                refuse(fmt::format("whose cutoff is above {:.6g} Å", most),
-                       "it may be half the box, and 100 Å, at most");
-            if constexpr (table) {
-                try {
-                    const PotentialTable& numbers = table_of(c, words.back());
-                    if (entry.quantities.empty())
-                        p.cutoff = std::min(cutoff_over(numbers, scene.interface), numbers.last());
-                    p = numbers.potential(p.cutoff);
-                } catch (const BadTable& bad) {
-                    fix = bad.fix;
-                    return refuse(bad.what, bad.why);
-                } catch (const std::invalid_argument& error) {
-                    fix = "take a cutoff beyond the well; 4 r0 is usual";
-                    return refuse(error.what(), table_format);
-                }
-            }
-            pair = p;
+        const bool known = with_potential(scene.interface.potentials, name, [&](const auto& p) {
+            pair = read_pair(c, entry, p, fix, refuse);
         });
         if (!known)
             refuse(

@@ -64,12 +64,12 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
     const std::vector<double>& slope = spline.slopes();
     rows_ = n;
     last_ = distance[n - 1];
-    whole_.first = distance[0];
-    whole_.step = (last_ - distance[0]) / intervals;
-    whole_.intervals = intervals;
+    uncut_.first = distance[0];
+    uncut_.step = (last_ - distance[0]) / intervals;
+    uncut_.intervals = intervals;
     std::size_t piece = 0;
     const auto at = [&](int k) { // value and slope of the spline at the beginning of interval k
-        const double r = k == intervals ? last_ : whole_.first + k * whole_.step;
+        const double r = k == intervals ? last_ : uncut_.first + k * uncut_.step;
         while (piece + 2 < n && r > distance[piece + 1])
             ++piece;
         const double length = distance[piece + 1] - distance[piece];
@@ -81,15 +81,15 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
     auto here = at(0);
     for (int k = 0; k < intervals; ++k) {
         const auto there = at(k + 1);
-        const Hermite cubic(whole_.step, here.first, here.second, there.first, there.second);
+        const Hermite cubic(uncut_.step, here.first, here.second, there.first, there.second);
         cubics_.insert(cubics_.end(), cubic.c, cubic.c + 4);
         here = there;
     }
-    whole_.cubics = cubics_.data();
-    whole_.cutoff = last_;
+    uncut_.cubics = cubics_.data();
+    uncut_.cutoff = last_;
 
-    const Pair<Tabulated> pair(whole_);
-    Tabulated::Shape& shape = whole_.shape;
+    const Pair<Tabulated> pair(uncut_);
+    Tabulated::Shape& shape = uncut_.shape;
     const auto force = [&](double r) { return -r * pair.derivatives(r * r).slope; };
     shape.minimum = crossing(distance[least - 1], distance[least + 1], force);
     shape.depth = -pair.unshifted(shape.minimum * shape.minimum);
@@ -98,10 +98,10 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
     // The first place beyond the minimum where the pull is largest, on the grid and then between
     // its points.
     double steepest = shape.minimum;
-    while (steepest + whole_.step < last_ && force(steepest + whole_.step) < force(steepest))
-        steepest += whole_.step;
-    shape.inflection = crossing(std::max(shape.minimum, steepest - whole_.step),
-                                steepest + whole_.step, [&](double r) {
+    while (steepest + uncut_.step < last_ && force(steepest + uncut_.step) < force(steepest))
+        steepest += uncut_.step;
+    shape.inflection = crossing(std::max(shape.minimum, steepest - uncut_.step),
+                                steepest + uncut_.step, [&](double r) {
                                     const PairDerivatives d = pair.derivatives(r * r);
                                     return d.slope + r * r * d.bend;
                                 });
@@ -112,7 +112,7 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
 void PotentialTable::find_errors(std::span<const double> distance, std::span<const double> energy) {
     std::vector<double> at(intervals + 1);
     for (int k = 0; k <= intervals; ++k)
-        at[static_cast<std::size_t>(k)] = std::min(whole_.first + k * whole_.step, last_);
+        at[static_cast<std::size_t>(k)] = std::min(uncut_.first + k * uncut_.step, last_);
     const auto keep = [&](std::span<const double> value, std::vector<double>& cubics) {
         cubics.assign(4 * intervals, 0.0);
         for (std::size_t k = 0; k < intervals; ++k) {
@@ -135,7 +135,7 @@ void PotentialTable::find_errors(std::span<const double> distance, std::span<con
 }
 
 Tabulated PotentialTable::of_errors(const std::vector<double>& cubics, double cutoff) const {
-    Tabulated errors = whole_;
+    Tabulated errors = uncut_;
     errors.cubics = cubics.data();
     errors.cutoff = cutoff;
     errors.shape.shift = 0.0;
@@ -145,12 +145,12 @@ Tabulated PotentialTable::of_errors(const std::vector<double>& cubics, double cu
 }
 
 PotentialTable::Repulsion PotentialTable::repulsion(double cutoff) const {
-    const Pair<Tabulated> pair(whole_);
+    const Pair<Tabulated> pair(uncut_);
     const auto force = [&](double r) { return -r * pair.derivatives(r * r).slope; };
-    const double attraction = -force(whole_.shape.inflection);
+    const double attraction = -force(uncut_.shape.inflection);
     Repulsion found;
     double lowest = pair.unshifted(cutoff * cutoff);
-    for (double r = cutoff; r > whole_.shape.minimum; r -= whole_.step) {
+    for (double r = cutoff; r > uncut_.shape.minimum; r -= uncut_.step) {
         const double energy = pair.unshifted(r * r);
         found.barrier = std::max(found.barrier, energy - lowest);
         lowest = std::min(lowest, energy);
@@ -164,14 +164,14 @@ PotentialTable::Repulsion PotentialTable::repulsion(double cutoff) const {
 }
 
 Tabulated PotentialTable::potential(double cutoff) const {
-    if (!(cutoff > whole_.shape.minimum && cutoff <= last_))
+    if (!(cutoff > uncut_.shape.minimum && cutoff <= last_))
         throw std::invalid_argument(
             fmt::format("a cutoff of {:.6g} Å: the table's well is at {:.6g} Å and its last "
                         "distance {:.6g} Å, and the cutoff must be between",
-                        cutoff, whole_.shape.minimum, last_));
-    Tabulated cut = whole_;
+                        cutoff, uncut_.shape.minimum, last_));
+    Tabulated cut = uncut_;
     cut.cutoff = cutoff;
-    cut.shape.shift = Pair<Tabulated>(whole_).unshifted(cutoff * cutoff);
+    cut.shape.shift = Pair<Tabulated>(uncut_).unshifted(cutoff * cutoff);
     return cut;
 }
 

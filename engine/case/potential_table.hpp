@@ -32,7 +32,7 @@ public:
     Tabulated potential(double cutoff) const;
 
     double last() const { return last_; }               ///< Returns the last distance, Å.
-    double depth() const { return whole_.shape.depth; } ///< Returns the depth of the well, eV.
+    double depth() const { return uncut_.shape.depth; } ///< Returns the depth of the well, eV.
     /// Returns the number of coefficients that a potential reads.
     std::size_t numbers() const { return cubics_.size(); }
     /// Returns the number of rows of the original table.
@@ -65,7 +65,7 @@ private:
     std::vector<double> cubics_, spline_error_, noise_;
     std::size_t rows_ = 0;
     double last_ = 0.0;
-    Tabulated whole_; ///< potential without a cutoff
+    Tabulated uncut_; ///< potential without a cutoff
 };
 
 } // namespace asperity

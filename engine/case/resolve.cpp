@@ -520,10 +520,10 @@ bool Case::has(Segment::Kind kind) const {
                        [&](const Segment& s) { return s.kind == kind; });
 }
 
-bool Case::guided() const {
-    return std::any_of(path().begin(), path().end(), [](const Segment& s) {
-        return s.kind != Segment::approach && s.kind != Segment::pull_off &&
-               s.kind != Segment::relax;
+bool Case::is_cycle() const {
+    return std::all_of(path().begin(), path().end(), [](const Segment& s) {
+        return s.kind == Segment::approach || s.kind == Segment::pull_off ||
+               s.kind == Segment::relax;
     });
 }
 

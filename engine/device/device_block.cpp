@@ -295,7 +295,7 @@ DeviceSums DeviceBlock::step(const Block& block, double reference_height,
     step_.sites.displacement = VectorVolume<const double>(levels_[0].u[step_.now])[0];
     step_.sites.reference_height = reference_height;
 
-    check(device_.follow(step_), "the launch of constrained planes");
+    check(device_.interpolate(step_), "the launch of constrained planes");
     check(device_.forces(step_, potential_), "the launch of forces");
     if (shared_level_ >= 0) share_restricted_forces(block);
     check(device_.advance(step_), "the launch of the step");

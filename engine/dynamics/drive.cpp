@@ -7,10 +7,6 @@
 
 namespace asperity {
 
-bool beyond_range(double top, double force, double strongest, double at_start) {
-    return top >= 0.0 && std::abs(force) <= std::max(1e-6 * strongest, std::abs(at_start));
-}
-
 double VelocityProfile::at(double t, double ramp) const {
     /// 0 to 1 along half a cosine.
     const auto risen = [&](double since) {
@@ -96,7 +92,7 @@ void Drive::begin(const Observation& step) {
         normal_ = {from, v, units::forever};
         break;
     case Segment::load:
-        normal_ = {from, step.beyond_range || step.force < next.amount ? -v : v, units::forever};
+        normal_ = {from, step.apart || step.force < next.amount ? -v : v, units::forever};
         break;
     case Segment::height:
         normal_ = VelocityProfile::over(next.amount - step.reference_height - step.at, from, v,
@@ -134,7 +130,7 @@ bool Drive::ended(const Observation& step) {
     case Segment::relax:
         return true;
     default:
-        return rule_.look(step.force, step.beyond_range) != SegmentRule::End::no;
+        return rule_.look(step.force, step.apart) != SegmentRule::End::no;
     }
 }
 

@@ -28,12 +28,6 @@
 
 namespace asperity {
 
-/// Returns true if a pull-off is complete: the displacement `top` of the top plane (Å) is not below
-/// its start (zero), and the force is at most at_start or small compared with the strongest
-/// attraction so far (eV/Å). The force alone is not sufficient, because it passes through zero when
-/// compression ends.
-bool beyond_range(double top, double force, double strongest, double at_start = 0.0);
-
 /// Velocity as a function of time: a ramp along half a cosine from one velocity to another and,
 /// from the time `cruise`, a ramp to rest.
 struct VelocityProfile {
@@ -100,11 +94,11 @@ public:
     TopMotion motion(double t) const;
 
     /// State after a step: time (fs), force on the lowest layer (eV/Å, positive upwards),
-    /// displacement `at` of the machine (Å), the result of beyond_range(), and the height of the
+    /// displacement `at` of the machine (Å), the result of are_apart(), and the height of the
     /// lowest layer at zero displacement (Å).
     struct Observation {
         double time = 0.0, force = 0.0, at = 0.0;
-        bool beyond_range = false;
+        bool apart = false;
         double reference_height = 0.0;
     };
     /// Returns the averaged force that ends the segments of a warm block; empty if the force of

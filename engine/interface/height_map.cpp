@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace asperity {
@@ -24,7 +23,7 @@ HeightMap::HeightMap(const Surface& substrate, const Tile& tile, int sites, doub
             fmt::format("interface: a substrate of {} x {} atoms has {} heights", sites_, sites_,
                         substrate.height.size()));
     height_ = bands.fetch(substrate.height, rows_.first, rows_.count);
-    highest_ = -std::numeric_limits<double>::infinity();
+    highest_ = -HUGE_VAL;
     for (const double h : substrate.height) // holes do not count
         highest_ = h > highest_ ? h : highest_;
     highest_ = substrate.ranks.max(highest_);

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -90,12 +89,12 @@ void Interface::slide_to(double x, double y) {
     const double step = map_.spacing();
     const auto spacings = [&](double at) { return static_cast<int>(std::lround(at / step)); };
     const std::array whole{spacings(x), spacings(y)};
-    rest_ = {x - whole[0] * step, y - whole[1] * step};
+    remainder_ = {x - whole[0] * step, y - whole[1] * step};
     if (slid_.empty()) slid_ = VectorField<double>(tile_, 1);
-    if (whole == whole_) return;
+    if (whole == spacings_) return;
     // The block goes one way, the substrate the other.
-    map_.shift(whole_[0] - whole[0], whole_[1] - whole[1]);
-    whole_ = whole;
+    map_.shift(spacings_[0] - whole[0], spacings_[1] - whole[1]);
+    spacings_ = whole;
     AtomPositions moved = atoms_;
     const double edge = tile_.sites * spacing_;
     const auto wrap = [&](std::vector<double>& list, double by) {
@@ -113,13 +112,13 @@ void Interface::slide_to(double x, double y) {
 /// Returns the displacements in the frame of the substrate.
 VectorPlane<const double>
 Interface::over_substrate(const VectorPlane<const double>& displacement) const {
-    if (rest_ == std::array{0.0, 0.0}) return displacement;
+    if (remainder_ == std::array{0.0, 0.0}) return displacement;
     const VectorPlane<double> to = slid_.plane(0);
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < tile_.ny; ++y)
         for (int x = 0; x < tile_.nx; ++x) {
-            to.x(x, y) = displacement.x(x, y) + rest_[0];
-            to.y(x, y) = displacement.y(x, y) + rest_[1];
+            to.x(x, y) = displacement.x(x, y) + remainder_[0];
+            to.y(x, y) = displacement.y(x, y) + remainder_[1];
         }
     const VectorPlane<const double> from = std::as_const(slid_).plane(0);
     return {from.x, from.y, displacement.z};
@@ -251,8 +250,7 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement) con
                 const std::size_t i =
                     static_cast<std::size_t>(y) * nx + static_cast<std::size_t>(x);
                 const double r2 = sites.nearest_r2(x, y);
-                maps.distance[i] =
-                    r2 < no_pair ? std::sqrt(r2) : std::numeric_limits<double>::infinity();
+                maps.distance[i] = r2 < no_pair ? std::sqrt(r2) : HUGE_VAL;
                 maps.pressure[i] = sites.force.z(x, y) * to_gpa;
                 const double below =
                     wall() ? wall()->below(x, y)

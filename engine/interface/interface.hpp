@@ -190,9 +190,9 @@ private:
     // Place of a block that slides.
     AtomPositions atoms_;           ///< initial positions of atoms anywhere
     std::array<double, 2> place_{}; ///< place of the block over the substrate, Å
-    std::array<int, 2> whole_{};    ///< whole spacings of place_, by which the substrate was moved
-    std::array<double, 2> rest_{};  ///< remainder of place_, Å
-    mutable VectorField<double> slid_; ///< displacements plus rest_; x and y are used
+    std::array<int, 2> spacings_{}; ///< whole spacings of place_, by which the substrate was moved
+    std::array<double, 2> remainder_{}; ///< remainder of place_, Å
+    mutable VectorField<double> slid_;  ///< displacements plus remainder_; x and y are used
 
 public:
     // The views point into the object's own arrays.

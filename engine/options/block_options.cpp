@@ -115,24 +115,24 @@ std::vector<CellLayer> BlockOptions::column() const {
         else if (cells > 0)
             column.push_back({elasticity, cells});
     };
-    int rest = thickness;
+    int left = thickness;
     for (const MaterialLayer& layer : layers) {
         const int cells = static_cast<int>(std::lround(layer.thickness / spacing));
         add(layer.material, cells);
-        rest -= cells;
+        left -= cells;
     }
-    add(*this, rest);
+    add(*this, left);
     return column;
 }
 
 std::vector<SolidLayer> BlockOptions::solid() const {
     std::vector<SolidLayer> solid;
-    double rest = thickness * spacing;
+    double left = thickness * spacing;
     for (const MaterialLayer& layer : layers) {
         solid.push_back({layer.material.shear_modulus(), layer.material.poisson, layer.thickness});
-        rest -= layer.thickness;
+        left -= layer.thickness;
     }
-    solid.push_back({shear_modulus(), poisson, rest});
+    solid.push_back({shear_modulus(), poisson, left});
     return solid;
 }
 
@@ -180,15 +180,15 @@ double BlockOptions::highest_frequency(double site_stiffness) const {
 
 std::vector<LevelShape> level_shapes(const BlockOptions& options) {
     std::vector<LevelShape> shapes;
-    int rest = options.thickness, sites = options.sites;
+    int left = options.thickness, sites = options.sites;
     for (int level = 0;; ++level) {
         const int least = options.layers_per_level;
-        // One cell more where the rest would not divide by two.
-        const int cells = least + ((rest - least) & 1);
-        const bool coarsen = options.multiscale && sites % 2 == 0 && (rest - cells) / 2 >= least;
-        shapes.push_back({level, sites, coarsen ? cells : rest});
+        // One cell more where the number left would not divide by two.
+        const int cells = least + ((left - least) & 1);
+        const bool coarsen = options.multiscale && sites % 2 == 0 && (left - cells) / 2 >= least;
+        shapes.push_back({level, sites, coarsen ? cells : left});
         if (!coarsen) return shapes;
-        rest = (rest - cells) / 2;
+        left = (left - cells) / 2;
         sites /= 2;
     }
 }

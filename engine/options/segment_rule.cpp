@@ -8,8 +8,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace asperity {
+
+bool are_apart(bool beyond, double force, double strongest, double at_start) {
+    return beyond && std::abs(force) <= std::max(1e-6 * strongest, std::abs(at_start));
+}
 
 void SegmentRule::begin(Segment::Kind kind, double load, bool down, double area, double force,
                         double slack) {

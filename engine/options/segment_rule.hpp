@@ -16,6 +16,11 @@
 
 namespace asperity {
 
+/// Returns true if a pull-off is complete: the block is back beyond the interaction range, and the
+/// force is at most at_start or small compared with the strongest attraction so far (eV/Å). The
+/// force alone is not sufficient, because it passes through zero when compression ends.
+bool are_apart(bool beyond, double force, double strongest, double at_start = 0.0);
+
 /// Rule for the end of a segment.
 class SegmentRule {
 public:

@@ -65,12 +65,12 @@ Course::Course(const Case& c, double rms, double start)
       contact_(c.flat.separation), weights_(weights_of(c, expected_, reach_)) {}
 
 void Course::begin(std::size_t segment, const StepRecord& now, double seconds) {
-    if (begun_ && whole_ && segment > segment_) {
+    if (begun_ && from_beginning_ && segment > segment_) {
         auto& [weight, spent] = ended_[case_.path()[segment_].kind];
         weight += weights_[segment_];
         spent += seconds - first_seconds_;
     }
-    whole_ = begun_ || now.step == 0;
+    from_beginning_ = begun_ || now.step == 0;
     if (!begun_ && now.step > 0) // resumed
         base_ = std::accumulate(weights_.begin(),
                                 weights_.begin() + static_cast<std::ptrdiff_t>(segment), 0.0) /
@@ -170,7 +170,7 @@ double Course::rate(Segment::Kind kind) const {
 }
 
 /// Estimates the time left, s, from the part of the segment that is done; negative: not known.
-double Course::rest(double part, double seconds) const {
+double Course::time_left(double part, double seconds) const {
     const auto& path = case_.path();
     const double spent = seconds - first_seconds_, own = weights_[segment_];
     double known = rate(path[segment_].kind);
@@ -189,7 +189,7 @@ double Course::rest(double part, double seconds) const {
 }
 
 /// Estimates the time left of a dynamic path, s, whose steps take alike; negative: not known.
-double Course::rest_of_drive(const StepRecord& now, double seconds) const {
+double Course::time_left_of_drive(const StepRecord& now, double seconds) const {
     const double simulated = now.time - start_time_, velocity = case_.simulation.drive.velocity;
     if (!(simulated > 0.0 && seconds > 0.0)) return -1.0;
     const Segment& segment = case_.path()[segment_];
@@ -205,7 +205,7 @@ void Course::look(std::size_t segment, const StepRecord& now, double seconds) {
     if (!begun_ || segment != segment_) begin(segment, now, seconds);
     part_ = std::clamp(part_done(now, seconds), part_, std::max(part_, nearly));
     const double estimate =
-        case_.effects.dynamic ? rest_of_drive(now, seconds) : rest(part_, seconds);
+        case_.effects.dynamic ? time_left_of_drive(now, seconds) : time_left(part_, seconds);
     const double since = seconds - last_seconds_;
     last_seconds_ = seconds;
     if (estimate < 0.0) return;

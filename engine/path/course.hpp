@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The course of a path, for progress: the part that is done, and the time that the rest will take.
+// The course of a path, for progress: the part that is done, and the time that is left.
 // The time of a segment is estimated from the last ended segment of its kind. The time of a
 // pull-off is spread over the heights as that of the approach was, because both pass the same
 // heights. Until a segment has ended, a model spreads the time: in proportion to the time of the
@@ -42,8 +42,8 @@ private:
     double place(const StepRecord& now) const;
     double profile(double place) const;
     double rate(Segment::Kind kind) const;
-    double rest(double part, double seconds) const;
-    double rest_of_drive(const StepRecord& now, double seconds) const;
+    double time_left(double part, double seconds) const;
+    double time_left_of_drive(const StepRecord& now, double seconds) const;
 
     const Case& case_;
     ExpectedPath expected_;
@@ -52,12 +52,12 @@ private:
     std::vector<double> weights_; ///< expected times of the segments, in one unit
     std::size_t segment_ = 0;     ///< number of the segment under way
     bool begun_ = false;
-    double start_time_ = 0.0;    ///< simulated time when the path was first seen, fs
-    StepRecord first_{};         ///< record at the beginning of the segment
-    double first_seconds_ = 0.0; ///< wall time of the path at first_, s
-    bool whole_ = false;         ///< look() has followed the segment from its beginning
-    double strongest_ = 0.0;     ///< largest attraction of an approach so far, eV/Å
-    double part_ = 0.0;          ///< part of the segment that is done, which never decreases
+    double start_time_ = 0.0;     ///< simulated time when the path was first seen, fs
+    StepRecord first_{};          ///< record at the beginning of the segment
+    double first_seconds_ = 0.0;  ///< wall time of the path at first_, s
+    bool from_beginning_ = false; ///< look() has followed the segment from its beginning
+    double strongest_ = 0.0;      ///< largest attraction of an approach so far, eV/Å
+    double part_ = 0.0;           ///< part of the segment that is done, which never decreases
     /// Weights and seconds of the segments that have ended, by kind.
     std::array<std::pair<double, double>, Segment::kinds> ended_{};
     /// Course of the last approach: decreasing heights, Å, and seconds until each.

@@ -39,13 +39,13 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     if (segment.kind != Segment::pull_off) return;
     const double moving = left ? left->total() : 0.0;
     // A part of the energy that moved before the cycle is in its losses.
-    since_apart_[Term::lost] = since_apart_[Term::lost] + moving - moved_apart_;
+    since_apart_[Term::lost] = since_apart_[Term::lost] + moving - left_in_motion_;
     if (results_.last(Segment::approach))
         for (const io::EnergyTerm& row : io::energy_terms)
             if (row.is_loss() && is_given(row) && !is_heat(row, case_.effects))
                 results_.in_cycle[row.term] = per_area(since_apart_[row.term]);
     since_apart_ = {};
-    moved_apart_ = moving;
+    left_in_motion_ = moving;
 }
 
 /// Returns true if segments of this case have the term.

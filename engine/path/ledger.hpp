@@ -75,7 +75,7 @@ public:
     template <class Visitor>
     void visit(Visitor& v) {
         v("since_apart", since_apart_);
-        v("moved_apart", moved_apart_);
+        v("moved_apart", left_in_motion_);
     }
 
 private:
@@ -86,7 +86,7 @@ private:
     const Case& case_;
     PathResults& results_;
     Energies since_apart_; ///< works and losses since the last end of a pull-off, or the start, eV
-    double moved_apart_ = 0.0; ///< energy left in motion at that time, eV
+    double left_in_motion_ = 0.0; ///< energy left in motion at that time, eV
 };
 
 } // namespace asperity

@@ -141,6 +141,8 @@ public:
     const PathResults& results() const { return results_; }
     virtual const ProcessGrid& grid() const = 0;          ///< returns the cut of the box
     virtual const Communicator& communicator() const = 0; ///< returns the ranks
+    /// Returns true if steps are many and short, so that a run attends to some of them only.
+    virtual bool has_short_steps() const { return false; }
     /// Returns the position on the path for messages: "step 1200", "point 17".
     virtual std::string position() const = 0;
     /// Returns the number of iterations of the points so far; nothing for a dynamic path.

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 
 namespace asperity {
 
@@ -135,20 +134,20 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     const std::vector<double> work = rate(flow(Term::work));
     std::vector<double> lost(bins, 0.0); // all losses
     std::size_t first = 0;
-    double smallest = std::numeric_limits<double>::infinity();
+    double smallest = HUGE_VAL;
     for (std::size_t i = 0; i <= bins / 2; ++i)
         if (const double variance = variance_of_mean(work, i); variance < smallest) {
             smallest = variance;
             first = i;
         }
-    const auto rest = [&](const std::vector<double>& of) {
+    const auto steady = [&](const std::vector<double>& of) {
         return std::vector<double>(of.begin() + static_cast<std::ptrdiff_t>(first), of.end());
     };
     SteadySlide s;
     s.running_in = from + static_cast<double>(first) * width;
     const std::vector<double> contact = value(&SlidePoint::in_contact);
     s.in_contact = mean_from(contact, first);
-    s.in_contact_error = error_of_mean(rest(contact));
+    s.in_contact_error = error_of_mean(steady(contact));
     const double edges = mean_from(value(&SlidePoint::contact_edges), first);
     s.area = contact_sites(s.in_contact, edges);
     s.area_error = std::hypot(contact_sites_error(edges), s.in_contact_error);
@@ -166,7 +165,7 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     s.steady = is_steady(lengths);
     const std::vector<double>& friction = s.steady && s.losses.dissipated() > 0.0 ? lost : work;
     s.friction = mean_from(friction, first);
-    s.friction_error = error_of_mean(rest(friction));
+    s.friction_error = error_of_mean(steady(friction));
     s.friction_error = std::max(s.friction_error, std::abs(s.steady ? missing : left_out));
     if (lengths.shortest_wave > 0.0 && s.area > 0.0) {
         const double a_over_wave = lengths.spacing / lengths.shortest_wave;

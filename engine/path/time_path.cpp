@@ -99,8 +99,9 @@ void TimePath::copy_fields(const Wish& wish) {
 bool TimePath::end_segment_if_met(const StepRecord& now) {
     const Segment& segment = case_.path()[drive_.segment()];
     results_.record_force(segment, now);
+    // Neither the top plane nor the machine is below its start.
     const bool apart =
-        beyond_range(std::min(now.top, now.drive), now.force, results_.strongest, start_.force);
+        are_apart(std::min(now.top, now.drive) >= 0.0, now.force, results_.strongest, start_.force);
     if (!drive_.observe(
             {now.time, now.force, now.drive, apart, simulation_.interface().reference_height()}))
         return false;

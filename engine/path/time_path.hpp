@@ -39,6 +39,7 @@ public:
     const Interface& interface() const override { return simulation_.interface(); }
     const ProcessGrid& grid() const override { return simulation_.block().grid(); }
     const Communicator& communicator() const override { return simulation_.communicator(); }
+    bool has_short_steps() const override { return true; }
     std::string position() const override;
     const Phases* phases() const override { return &simulation_.phases(); }
     std::size_t bytes() const override {

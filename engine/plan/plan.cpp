@@ -232,7 +232,7 @@ Plan make_plan(const Case& c, int threads) {
         if (const auto& most = c.simulation.drive.max_steps)
             plan.steps = std::min(plan.steps, *most);
         // An approach and a pull-off are half of their way beyond the interaction range.
-        const double far = c.guided() ? 0.0 : 0.5;
+        const double far = c.is_cycle() ? 0.5 : 0.0;
         plan.moving = share * static_cast<double>(plan.steps) * nodes_of(c.levels) / piece.nodes *
                       (far * piece.far_step + (1.0 - far) * piece.near_step);
     }

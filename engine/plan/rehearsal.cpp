@@ -123,6 +123,16 @@ bool follow(Path& path, const auto& stop) {
     return true;
 }
 
+/// Returns the heights under a piece of a case: generated, those of the case's file if the piece is
+/// all of the case, or a stand-in.
+Surface heights_of(const Case& piece, const Case& c, const Surface* of_file, double atoms) {
+    if (!piece.surface.reads_file()) return surface_of(piece);
+    const double part = 1.0 * piece.simulation.block.sites / c.simulation.block.sites;
+    if (of_file && part == 1.0) return *of_file;
+    return stand_in(piece, of_file ? of_file->statistics.rms : 1.0,
+                    static_cast<int>(atoms * std::pow(part, 2)));
+}
+
 } // namespace
 
 Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file, double atoms) {
@@ -136,15 +146,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
         done.bytes[which] = std::max(most, allocated()) - before;
     };
     const double begin = now();
-    Surface heights;
-    if (!piece.surface.reads_file())
-        heights = surface_of(piece);
-    else if (of_file && sites == c.simulation.block.sites)
-        heights = *of_file;
-    else
-        heights =
-            stand_in(piece, of_file ? of_file->statistics.rms : 1.0,
-                     static_cast<int>(atoms * std::pow(1.0 * sites / c.simulation.block.sites, 2)));
+    const Surface heights = heights_of(piece, c, of_file, atoms);
     const ProcessGrid grid = piece.grid(0);
     const BlockOptions& options = piece.simulation.block;
     std::optional<Interface> below;

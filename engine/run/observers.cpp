@@ -15,9 +15,8 @@
 namespace asperity {
 
 bool row_is_due(const Path& path) {
-    const Case& c = path.scene_case();
-    if (!c.effects.dynamic || path.status() == Path::Status::at_end) return true;
-    return path.steps() % c.output.series == 0;
+    return path.status() == Path::Status::at_end ||
+           path.steps() % path.scene_case().output.series == 0;
 }
 
 namespace {
@@ -104,8 +103,7 @@ void ProgressLine::look_at_course(const Path& path) {
 
 void ProgressLine::look_at_step(const Path& path) {
     if (session_.progress().mode() == io::ProgressMode::off) return;
-    // Points are few, steps many.
-    if (!path.scene_case().effects.dynamic || path.now().step % 64 == 0) look_at_course(path);
+    if (!path.has_short_steps() || path.now().step % 64 == 0) look_at_course(path);
     look_within(path, 0, 0.0);
 }
 

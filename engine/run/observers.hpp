@@ -15,7 +15,7 @@ namespace asperity {
 
 class RunSession;
 
-/// Returns true if the next step is recorded as a row of the series.
+/// Returns true if the next time step is recorded as a row of the series; each point is.
 bool row_is_due(const Path& path);
 
 /// The observers of a run, in any order.

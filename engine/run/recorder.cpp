@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <span>
 #include <tuple>
 #include <type_traits>
@@ -271,7 +270,7 @@ class GapDensity {
 public:
     /// Looks at the gaps of the first n x n sites of the box in this rank's tile. Collective.
     GapDensity(const Communicator& ranks, const Tile& tile, int n, const std::vector<double>& gap) {
-        double least = std::numeric_limits<double>::infinity(), greatest = -least;
+        double least = HUGE_VAL, greatest = -least;
         for (int y = 0; y < std::min(tile.ny, n - tile.y0); ++y)
             for (int x = 0; x < std::min(tile.nx, n - tile.x0); ++x) {
                 const double u = view_of(gap, tile)(x, y);
@@ -498,11 +497,11 @@ void Recorder::frame(const Path& path, bool velocities) {
     put("position", "Angstrom", path.layer(), [&](std::size_t c, std::size_t site, double u) {
         // Sites stand over the hollows of the substrate (docs/explanation/model.md), and positions
         // are over the substrate.
-        const std::array<double, 3> rest = {
+        const std::array<double, 3> lattice_place = {
             (static_cast<double>(site % sites) + 0.5) * block.spacing,
             (static_cast<double>(site / sites) + 0.5) * block.spacing,
             path.interface().reference_height()};
-        return rest[c] + (c < 2 && now.slide[c] != 0.0 ? u + now.slide[c] : u);
+        return lattice_place[c] + (c < 2 && now.slide[c] != 0.0 ? u + now.slide[c] : u);
     });
     if (velocities)
         put("velocity", "Angstrom ps-1", path.velocities(),
@@ -576,7 +575,7 @@ std::map<std::string, std::vector<double>> Recorder::series() const {
         columns.push_back(&all[c->name()]);
     journal_->replay([&](std::uint64_t kind, io::PayloadReader entry) {
         if (kind != rows_entry) return;
-        const std::vector<double> rows = entry.rest<double>();
+        const std::vector<double> rows = entry.remaining<double>();
         for (std::size_t i = 0; i < rows.size(); ++i)
             columns[i % columns.size()]->push_back(rows[i]);
     });

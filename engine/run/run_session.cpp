@@ -130,7 +130,7 @@ bool RunSession::stop_here(const Path& path) {
         save_if_on(path);
         return true;
     }
-    if (case_.effects.dynamic && !interruptions_.check_is_due()) return false; // steps are short
+    if (path.has_short_steps() && !interruptions_.check_is_due()) return false;
     const Interruption now = ask();
     if (now > Interruption::checkpoint) {
         stop_now(path);
@@ -175,12 +175,12 @@ void RunSession::require_physical(Path& path) {
     if (!wrong) return;
     failed_ = path.now();
     Path::Remedy remedy = path.remedy();
-    if (case_.effects.dynamic) remedy.fix += "; " + restore_last_good_state(path);
+    if (path.has_short_steps()) remedy.fix += "; " + restore_last_good_state(path);
     throw io::PhysicsError(*wrong, remedy.why, remedy.fix);
 }
 
 void RunSession::copy_good_state(const Path& path) {
-    const bool has_row = case_.effects.dynamic && path.has_stepped() && path.now().observed;
+    const bool has_row = path.has_short_steps() && path.has_stepped() && path.now().observed;
     if (!has_row || recorder().rows() % rows_between_snapshots != 1) return;
     const auto t = phases_.time(Phase::output);
     last_good_.take(path);

@@ -89,17 +89,17 @@ std::string with_units(double value) {
 
 /// Works, energies and heights of a run as people read them: energies over the nominal area, those
 /// of a bounded contact whole, in aJ; heights in Å, or beside forces in nN in nm.
-class Form {
+class DisplayUnits {
 public:
-    explicit Form(const Case& c)
-        : whole_(c.in_newtons() ? 1e-3 * c.area() / units::attojoule : 0.0),
+    explicit DisplayUnits(const Case& c)
+        : to_attojoules_(c.in_newtons() ? 1e-3 * c.area() / units::attojoule : 0.0),
           nanometres_(c.in_newtons()) {}
     /// Returns whether energies are those of the whole contact.
-    bool is_whole() const { return whole_ > 0.0; }
+    bool is_whole() const { return to_attojoules_ > 0.0; }
     /// Returns an energy over the nominal area, meV/Å^2, without its unit.
     std::string energy(Number value) const {
         if (!is_whole() || !value) return energies(value);
-        return io::cell(*value * whole_, 4);
+        return io::cell(*value * to_attojoules_, 4);
     }
     /// Returns an energy over the nominal area, meV/Å^2, with its unit.
     std::string with_unit(double value) const {
@@ -111,7 +111,7 @@ public:
     }
     /// Returns an uncertainty of such an energy, in the first of its units.
     std::string uncertainty(Number value) const {
-        return value ? fmt::format("{:.1e}", *value * (is_whole() ? whole_ : 1.0)) : "-";
+        return value ? fmt::format("{:.1e}", *value * (is_whole() ? to_attojoules_ : 1.0)) : "-";
     }
     std::string unit_of_uncertainty() const { return is_whole() ? "aJ" : "meV/Å²"; }
     std::string height(double value) const {
@@ -130,7 +130,7 @@ public:
     }
 
 private:
-    double whole_; ///< aJ over meV/Å^2; zero: energies are over the area
+    double to_attojoules_; ///< aJ over meV/Å^2; zero: energies are over the area
     bool nanometres_;
 };
 
@@ -148,20 +148,21 @@ double works_in_cycle(const PathResults& results) {
 /// Prints whether the losses of a quasi-static path are those of the box.
 void print_limits_of_losses(Sentences& to, const Case& c) {
     if (c.effects.dynamic || !c.box_jumps()) return;
-    const Form form(c);
+    const DisplayUnits display(c);
     const std::optional<double> loss = c.flat_loss();
-    io::print_text(to,
-                   "  The longest waves of the box jump, however smooth the surfaces are: works "
-                   "and the energy "
-                   "lost are those of a box of this width, not of the surface{}.\n",
-                   loss ? fmt::format("; flat surfaces lose about {} in it", form.with_unit(*loss))
-                        : std::string());
+    io::print_text(
+        to,
+        "  The longest waves of the box jump, however smooth the surfaces are: works "
+        "and the energy "
+        "lost are those of a box of this width, not of the surface{}.\n",
+        loss ? fmt::format("; flat surfaces lose about {} in it", display.with_unit(*loss))
+             : std::string());
 }
 
 /// Prints works and losses of a whole path.
 void print_cycle(Sentences& to, const Case& c, const PathResults& results, const Numbers& of,
                  double flat) {
-    const Form form(c);
+    const DisplayUnits display(c);
     if (c.effects.temperature) {
         io::print_text(to, "  The works of the drive contain heat of the thermostat.\n");
         return;
@@ -170,13 +171,14 @@ void print_cycle(Sentences& to, const Case& c, const PathResults& results, const
     for (const io::EnergyTerm& row : io::energy_terms)
         if (const Number energy = results.in_cycle[row.term];
             energy && row.kind == io::EnergyTerm::dissipated)
-            remembered += fmt::format("{} are {}, ", form.with_unit(*energy), row.words());
+            remembered += fmt::format("{} are {}, ", display.with_unit(*energy), row.words());
     if (!remembered.empty()) {
         const double lost = of("lost.cycle").value_or(0.0);
         io::print_text(to,
                        "  From the approach to the end of the pull-off the works "
                        "of the drive add up to {}: {}and {} are lost at instabilities.\n",
-                       form.with_unit(works_in_cycle(results)), remembered, form.with_unit(lost));
+                       display.with_unit(works_in_cycle(results)), remembered,
+                       display.with_unit(lost));
         const Number unclear = of("dissipated.not_followed");
         if (unclear && *unclear > 0.0)
             io::print_text(
@@ -186,10 +188,10 @@ void print_cycle(Sentences& to, const Case& c, const PathResults& results, const
                 io::number(*unclear, 2));
         return;
     }
-    if (c.guided() && !results.segments.empty()) {
+    if (!c.is_cycle() && !results.segments.empty()) {
         if (const Number lost = of("lost.cycle"))
             io::print_text(to, "  From the approach to the end of the pull-off {} are lost.\n",
-                           form.with_unit(*lost));
+                           display.with_unit(*lost));
         return;
     }
     const double lost =
@@ -203,13 +205,13 @@ void print_cycle(Sentences& to, const Case& c, const PathResults& results, const
             to,
             "  The works of the drive on the solids, in and out, add up to {}: hardly anything "
             "is lost.\n",
-            form.with_unit(std::abs(lost)));
+            display.with_unit(std::abs(lost)));
     else
         io::print_text(
             to,
             "  The works of the drive on the solids, in and out, add up to {}: energy that is "
             "{}.\n",
-            form.with_unit(lost),
+            display.with_unit(lost),
             !c.effects.dynamic ? "lost at instabilities"
             : c.effects.spring ? "damped, or left in motion and in the spring at the end"
                                : "damped, or left in motion at the end");
@@ -233,7 +235,7 @@ void print_cycle(Sentences& to, const Case& c, const PathResults& results, const
 
 /// Prints what became of a surface that yields.
 void print_yielding(Sentences& to, const Case& c, const PathResults& results, const Numbers& of) {
-    const Form form(c);
+    const DisplayUnits display(c);
     const SegmentResults& most =
         *std::max_element(results.segments.begin(), results.segments.end(),
                           [](const SegmentResults& a, const SegmentResults& b) {
@@ -247,7 +249,7 @@ void print_yielding(Sentences& to, const Case& c, const PathResults& results, co
         "The plastic work is the energy dissipated in the surface. A cap on the pressure: no "
         "pile-up and no hardening.\n",
         io::number(100.0 * c.fraction(most.yielding.at_hardness), 2), c.path()[most.number].text,
-        form.height(last.mean_set), form.height(last.largest_set), form.unit_of_height(),
+        display.height(last.mean_set), display.height(last.largest_set), display.unit_of_height(),
         io::number(*of("yielding.slope_after"), 4), io::number(*of("yielding.slope_before"), 4));
     if (const auto area = of("theory.capped.contact_fraction")) {
         const SegmentResults& pressed = most_pressed(results);
@@ -278,7 +280,7 @@ std::string short_name(const Case& c, const SegmentResults& s) {
 
 /// Returns the segments of a path that has others than approach and pull-off, a column each.
 SummaryTable table_of_segments(const Case& c, const PathResults& results) {
-    const Form form(c);
+    const DisplayUnits display(c);
     const bool newtons = c.in_newtons();
     const double force_unit = newtons ? units::nanonewton : c.area() * units::megapascal;
     SummaryTable table{"segment"};
@@ -291,28 +293,29 @@ SummaryTable table_of_segments(const Case& c, const PathResults& results) {
         table.rows.push_back(std::move(row));
     };
     using Of = const SegmentResults&;
-    put("work of the drive", form.unit("segments[].work_of_drive"),
-        [&](Of s) { return form.energy(s.energies[Term::work]); });
+    put("work of the drive", display.unit("segments[].work_of_drive"),
+        [&](Of s) { return display.energy(s.energies[Term::work]); });
     for (const io::EnergyTerm& row : io::energy_terms)
         if (row.is_loss() && c.effects.has(row.effect))
-            put(row.words(), form.unit(io::Key::of("segments[].", row)),
-                [&](Of s) { return form.energy(s.energies[row.term]); });
+            put(row.words(), display.unit(io::Key::of("segments[].", row)),
+                [&](Of s) { return display.energy(s.energies[row.term]); });
     if (!c.effects.dynamic)
-        put("stored", form.unit("segments[].stored"), [&](Of s) { return form.energy(s.stored); });
+        put("stored", display.unit("segments[].stored"),
+            [&](Of s) { return display.energy(s.stored); });
     put("ends at",
-        form.unit(newtons ? io::Key("segments[].force") : io::Key("segments[].pressure")),
+        display.unit(newtons ? io::Key("segments[].force") : io::Key("segments[].pressure")),
         [&](Of s) { return number(s.force / force_unit, newtons ? 3 : 1); });
-    put("mean height", form.unit("segments[].mean_height"),
-        [&](Of s) { return form.height(s.mean_height); });
+    put("mean height", display.unit("segments[].mean_height"),
+        [&](Of s) { return display.height(s.mean_height); });
     put("contact", "", [&](Of s) { return number(c.fraction(s.in_contact), 4); });
     if (c.effects.yielding) {
         put("at the hardness", "",
             [&](Of s) { return number(c.fraction(s.yielding.at_hardness), 4); });
-        put("mean set", form.unit("segments[].mean_set"),
-            [&](Of s) { return form.height(s.yielding.mean_set); });
+        put("mean set", display.unit("segments[].mean_set"),
+            [&](Of s) { return display.height(s.yielding.mean_set); });
     }
     if (c.effects.sliding)
-        put("friction", newtons ? "nN" : form.unit("segments[].friction"), [&](Of s) {
+        put("friction", newtons ? "nN" : display.unit("segments[].friction"), [&](Of s) {
             const Number f = s.lateral_mean;
             return number(f && newtons ? Number(*f / force_unit) : f, 2);
         });
@@ -357,9 +360,10 @@ void print_ends(Sentences& to, const Case& c, const PathResults& results) {
 
 std::string progress_phase(const Case& c, const std::string& segment, double force,
                            long long in_contact, double mean_height) {
-    const Form form(c);
+    const DisplayUnits display(c);
     return fmt::format("{}, {}, contact {:.3f}, height {} {}", segment, force_text(c, force),
-                       c.fraction(in_contact), form.height(mean_height), form.unit_of_height());
+                       c.fraction(in_contact), display.height(mean_height),
+                       display.unit_of_height());
 }
 
 namespace {
@@ -377,7 +381,7 @@ std::pair<std::string, std::string> stress_text(double stress) {
 /// Returns numbers that the sentences of the summary contain, or that an instrument measures: the
 /// terminal has no table of them.
 SummaryTable table_for_pages(const Case& c, const Numbers& of) {
-    const Form form(c);
+    const DisplayUnits display(c);
     SummaryTable table{"", {""}};
     table.for_pages = true;
     const auto row = [&](const std::string& name, const std::string& unit, const std::string& value,
@@ -400,7 +404,7 @@ SummaryTable table_for_pages(const Case& c, const Numbers& of) {
     for (const io::EnergyTerm& loss : io::energy_terms)
         if (const Number lost = loss.is_loss() ? of(io::Key::of("", loss, ".cycle")) : Number())
             row((loss.term == Term::lost ? "energy " : "") + loss.words() + " in a cycle",
-                form.unit(io::Key::of("", loss, ".cycle")), form.energy(lost));
+                display.unit(io::Key::of("", loss, ".cycle")), display.energy(lost));
     return table;
 }
 
@@ -454,7 +458,7 @@ namespace {
 struct Run {
     const Case& c;
     Numbers of;
-    Form form{c};
+    DisplayUnits display{c};
     double flat = of("delta_gamma").value_or(0.0); ///< binding energy of flat surfaces, meV/Å²
     bool has_atoms = c.surface.kind == SurfaceKind::atoms;
 
@@ -481,23 +485,23 @@ struct Run {
 
 /// Returns the numbers of the state without a load, or under drive.load.
 SummaryTable table_of_state(const Run& run) {
-    const auto& [c, of, form, flat, has_atoms] = run;
+    const auto& [c, of, display, flat, has_atoms] = run;
     SummaryTable table{"state " + run.at(), {""}};
     const auto row = [&](const std::string& name, const std::string& unit, const std::string& value,
                          bool detail = false) {
         table.rows.push_back({name, unit, {value}, detail});
     };
-    row("binding energy", form.unit("binding_energy"), form.energy(of("binding_energy")));
-    if (!form.is_whole()) row(run.flat_text(), "", run.over_flat(of("binding_energy")), true);
-    row("convergence", form.unit_of_uncertainty(),
-        form.uncertainty(of("binding_energy_uncertainty")), true);
+    row("binding energy", display.unit("binding_energy"), display.energy(of("binding_energy")));
+    if (!display.is_whole()) row(run.flat_text(), "", run.over_flat(of("binding_energy")), true);
+    row("convergence", display.unit_of_uncertainty(),
+        display.uncertainty(of("binding_energy_uncertainty")), true);
     if (c.has_mesh())
-        row("mesh", form.unit_of_uncertainty(),
-            Run::of_mesh(form.uncertainty(of("mesh_error.binding_energy"))), true);
-    row("energy of the pairs alone", form.unit("pair_binding_energy"),
-        form.energy(of("pair_binding_energy")));
-    row("elastic energy stored", form.unit("relaxed.elastic_energy"),
-        form.energy(of("relaxed.elastic_energy")));
+        row("mesh", display.unit_of_uncertainty(),
+            Run::of_mesh(display.uncertainty(of("mesh_error.binding_energy"))), true);
+    row("energy of the pairs alone", display.unit("pair_binding_energy"),
+        display.energy(of("pair_binding_energy")));
+    row("elastic energy stored", display.unit("relaxed.elastic_energy"),
+        display.energy(of("relaxed.elastic_energy")));
     row("contact fraction", "", number(of("contact_fraction"), 4));
     if (const Number area = of("contact_area"))
         row("area, less half sites of its edges", "",
@@ -510,7 +514,7 @@ SummaryTable table_of_state(const Run& run) {
 
 /// Returns the numbers of approach and pull-off.
 SummaryTable table_of_path(const Run& run) {
-    const auto& [c, of, form, flat, has_atoms] = run;
+    const auto& [c, of, display, flat, has_atoms] = run;
     const auto error_of_force = [&](Number v) {
         return v ? fmt::format("{:.1e}", *v / (c.in_newtons() ? units::nanonewton : 1.0)) : "-";
     };
@@ -520,11 +524,11 @@ SummaryTable table_of_path(const Run& run) {
         table.rows.push_back({name, unit, {in, out}, detail});
     };
     const auto row = [&](const std::string& name, io::Key key, Number in, Number out) {
-        if (in || out) put(name, form.unit(key), form.energy(in), form.energy(out));
+        if (in || out) put(name, display.unit(key), display.energy(in), display.energy(out));
     };
     const auto work = [&](const std::string& name, io::Key key, Number in, Number out) {
         row(name, key, in, out);
-        if ((in || out) && !form.is_whole())
+        if ((in || out) && !display.is_whole())
             put(run.flat_text(), "", run.over_flat(in), run.over_flat(out), true);
     };
     const Number drive_in = of("work_of_drive.approach"), drive_out = of("work_of_drive.pull_off");
@@ -543,18 +547,18 @@ SummaryTable table_of_path(const Run& run) {
     row("energy left in the spring", "spring.approach", of("spring.approach"),
         of("spring.pull_off"));
     if (of("work_of_drive.uncertainty.approach") || of("work_of_drive.uncertainty.pull_off"))
-        put("convergence of the above", form.unit_of_uncertainty(),
-            form.uncertainty(of("work_of_drive.uncertainty.approach")),
-            form.uncertainty(of("work_of_drive.uncertainty.pull_off")));
+        put("convergence of the above", display.unit_of_uncertainty(),
+            display.uncertainty(of("work_of_drive.uncertainty.approach")),
+            display.uncertainty(of("work_of_drive.uncertainty.pull_off")));
     if (c.has_mesh() && (drive_in || drive_out))
-        put("mesh", form.unit_of_uncertainty(),
-            Run::of_mesh(form.uncertainty(of("mesh_error.work_of_drive.approach"))),
-            Run::of_mesh(form.uncertainty(of("mesh_error.work_of_drive.pull_off"))));
+        put("mesh", display.unit_of_uncertainty(),
+            Run::of_mesh(display.uncertainty(of("mesh_error.work_of_drive.approach"))),
+            Run::of_mesh(display.uncertainty(of("mesh_error.work_of_drive.pull_off"))));
     if (c.in_newtons())
-        put("largest attraction", form.unit("instrument.pull_off_force"),
+        put("largest attraction", display.unit("instrument.pull_off_force"),
             number(of("instrument.approach_force"), 3), number(of("instrument.pull_off_force"), 3));
     else
-        put("largest attraction", form.unit("pull_off_force"), number(of("approach_force"), 1),
+        put("largest attraction", display.unit("pull_off_force"), number(of("approach_force"), 1),
             number(of("pull_off_force"), 1));
     if (c.has_mesh())
         put("mesh", "", Run::of_mesh(error_of_force(of("mesh_error.approach_force"))),
@@ -567,7 +571,7 @@ SummaryTable table_of_path(const Run& run) {
 
 /// Tells what the numbers mean.
 void tell_meaning(Sentences& to, const Run& run, const PathResults& results) {
-    const auto& [c, of, form, flat, has_atoms] = run;
+    const auto& [c, of, display, flat, has_atoms] = run;
     const std::string at = run.at();
     const Number state = of("binding_energy"), drive_in = of("work_of_drive.approach");
     if (state)
@@ -575,17 +579,17 @@ void tell_meaning(Sentences& to, const Run& run, const PathResults& results) {
             to,
             "  The state {} has a binding energy of {}{}: {} of the pairs across the interface, "
             "less {} of elastic energy in {}. {} % of {} are in contact.\n",
-            at, form.with_unit(*state),
-            flat > 0.0 && !form.is_whole()
+            at, display.with_unit(*state),
+            flat > 0.0 && !display.is_whole()
                 ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
                               has_atoms ? "one flat layer of the block's lattice"
                                         : "two flat surfaces")
                 : std::string(),
-            form.part(*of("pair_binding_energy")), form.part(*of("relaxed.elastic_energy")),
+            display.part(*of("pair_binding_energy")), display.part(*of("relaxed.elastic_energy")),
             c.simulation.block.counter ? "the two solids" : "the block",
             io::number(100.0 * *of("contact_fraction"), 1),
             c.simulation.interface.wall ? "the sites" : "the block's surface atoms");
-    if (state && flat > 0.0 && !form.is_whole() && *state < no_adhesion * flat)
+    if (state && flat > 0.0 && !display.is_whole() && *state < no_adhesion * flat)
         io::print_text(
             to, "  No adhesion {}: the solids do not stick (below {:.0f} % of flat on flat).\n", at,
             100.0 * no_adhesion);
@@ -643,7 +647,7 @@ Summary summary_of(const Case& c, const io::Result& result, const PathResults& r
         summary.tables.push_back(table_of_path(run));
     if (SummaryTable table = table_for_pages(c, of); !table.rows.empty())
         summary.tables.push_back(std::move(table));
-    if (c.guided() && !results.segments.empty()) {
+    if (!c.is_cycle() && !results.segments.empty()) {
         summary.tables.push_back(table_of_segments(c, results));
         print_ends(summary.tables.back().sentences, c, results);
     }

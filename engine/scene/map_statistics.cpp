@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 
 namespace asperity {
@@ -37,7 +36,7 @@ MapStatistics map_statistics(const std::vector<double>& h, const Bands& bands, d
     const int nx = bands.columns(), ny = bands.rows(), first = bands.first(),
               end = first + bands.held();
     MapStatistics s;
-    s.lowest = std::numeric_limits<double>::infinity();
+    s.lowest = HUGE_VAL;
     s.highest = -s.lowest;
     Mean height, square, slope, curvature;
     for (const double v : h) {

@@ -333,13 +333,11 @@ void bind_surface(io::Schema& schema, Scene& scene, const Needs& needs) {
     bind_counter(schema, surface.counter, needs);
 }
 
-/// Adds the keys of the section [block].
-void bind_block(io::Schema& schema, Scene& scene, const Needs& needs) {
-    auto& block = scene.block;
-    schema.section("block", "The elastic block.");
+/// Adds the key block.model.
+void bind_model(io::Schema& schema, Scene& scene, const Needs& needs) {
     schema
         .choice<BlockModel>(
-            "model", block.model,
+            "model", scene.block.model,
             {{"auto", BlockModel::automatic},
              {"lattice", BlockModel::lattice},
              {"multiscale", BlockModel::multiscale},
@@ -369,6 +367,13 @@ void bind_block(io::Schema& schema, Scene& scene, const Needs& needs) {
                     "a quasi-static path is always one of waves, and a dynamic path never",
                     "leave block.model out, and take drive.mode = \"quasistatic\" or drive.path = "
                     "[\"relax\"]"});
+}
+
+/// Adds the keys of the section [block].
+void bind_block(io::Schema& schema, Scene& scene, const Needs& needs) {
+    auto& block = scene.block;
+    schema.section("block", "The elastic block.");
+    bind_model(schema, scene, needs);
     schema.number("young", block.young, "GPa", io::Range{0.0, 1e6, true, false},
                   "Young's modulus E");
     schema.number("poisson", block.poisson, "", io::Range{-1.0, 0.5, true, true},

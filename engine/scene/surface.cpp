@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -150,7 +149,7 @@ Surface finished(const SurfaceOptions& o, Surface s) {
             }
         s.holes = holes_of(s); // in a box with free edges the sphere ends at its equator
     }
-    s.statistics.lowest = std::numeric_limits<double>::infinity();
+    s.statistics.lowest = HUGE_VAL;
     s.statistics.highest = -s.statistics.lowest;
     for (const double h : s.height) { // holes do not count
         if (h < s.statistics.lowest) s.statistics.lowest = h;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace asperity {
@@ -27,7 +28,7 @@ double HeavyBall::move(const Preconditioner& preconditioner, double move_max) {
     const int components = block_.components();
     const PlaneView<float> step_size = step_sizes_.plane(0);
     std::vector<float> of_row(static_cast<std::size_t>(step_size.ny));
-    const SiteRows<float> targets = block_.respond(preconditioner);
+    const SiteRows<float> targets = block_.respond(preconditioner.k(), std::cref(preconditioner));
 #pragma omp parallel for schedule(static) num_threads(targets.threads())
     for (int y = 0; y < step_size.ny; ++y) {
         const float* const* target = targets.get(y);

@@ -9,7 +9,7 @@
 
 namespace asperity {
 
-double LastPoint::lead(Along along) {
+double LastPoint::select(Along along) {
     if (along == along_) return at_;
     along_ = along;
     at_ = along == Along::z      ? normal_

@@ -12,8 +12,8 @@
 #include "engine/units.hpp"
 
 #include <array>
+#include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -37,12 +37,12 @@ public:
     /// that the drive would move in that time, Å (block_memory.hpp).
     enum class Along { x, y, z, time };
     /// Selects the coordinate that changes from now on. Returns the value of this coordinate, Å.
-    double lead(Along along);
+    double select(Along along);
     /// Returns the coordinate of the last point, Å.
     double at() const { return at_; }
     /// Prescribes a load along z, eV/Å, from now on; without a load prescribes the quantity at its
     /// present value again. The coordinate must be the place or time.
-    void press(std::optional<double> load) { load_ = load; }
+    void prescribe_load(std::optional<double> load) { load_ = load; }
     /// Sets the largest sum of the residual forces of a point from now on, eV/Å (RelaxOptions).
     void balance_to(double balance) { balance_ = balance; }
 
@@ -126,8 +126,8 @@ private:
     StateCopy state_;
     double at_ = 0.0;
     Along along_ = Along::z;
-    double balance_ = std::numeric_limits<double>::infinity(); ///< eV/Å
-    double normal_ = 0.0;                                      ///< prescribed value along z, Å
+    double balance_ = HUGE_VAL;     ///< eV/Å
+    double normal_ = 0.0;           ///< prescribed value along z, Å
     std::optional<double> load_;    ///< load held instead of normal_, eV/Å
     double clock_ = 0.0;            ///< coordinate along time, Å
     std::array<double, 2> place_{}; ///< place of the block over the substrate, Å

@@ -9,8 +9,8 @@
 #include "engine/options/scales.hpp"
 #include "engine/waves/constraint.hpp"
 
+#include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 
 namespace asperity {
@@ -27,7 +27,7 @@ struct PathOptions {
     std::optional<double> binding_energy = {};
     bool over_wall = false; ///< the substrate is a wall
     /// Force under which the whole surface yields, eV/Å; infinite: it does not yield.
-    double yield_force = std::numeric_limits<double>::infinity();
+    double yield_force = HUGE_VAL;
     /// Called during relaxations with the iteration and the residual, eV/Å. Returns true to stop.
     std::function<bool(long long, double)> report;
 

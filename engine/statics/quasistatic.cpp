@@ -157,7 +157,7 @@ QuasistaticPath::Outcome QuasistaticPath::outcome() {
     const bool clear =
         interface_.yielding_wall() && !options_.attracts() && record_.in_contact == 0;
     const bool beyond = interface_.reference_height() + record_.top >= interface_.start_height();
-    const bool apart = (clear || beyond) && std::abs(record_.force) <= 1e-6 * strongest_;
+    const bool apart = are_apart(clear || beyond, record_.force, strongest_);
     switch (segment_.rule.look(record_.force, apart, slack(record_.in_contact),
                                segment_.aim.take_was_cut())) {
     case SegmentRule::End::at_load:

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -127,7 +126,7 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
                         : segment.kind != Segment::slide ? Along::z
                         : segment.axis == 0              ? Along::x
                                                          : Along::y;
-    const double from = last_.lead(along);
+    const double from = last_.select(along);
     hold_load(segment.under);
     double direction = 0.0;
     switch (segment.kind) {
@@ -168,7 +167,7 @@ void QuasistaticPath::begin_to(double at) {
     segment_.kind = Segment::height;
     segment_.load.reset();
     segment_.end = at;
-    const double from = last_.lead(Along::z);
+    const double from = last_.select(Along::z);
     hold_load({});
     begin(Along::z, at == from ? 0.0 : at < from ? -1.0 : 1.0);
 }
@@ -176,7 +175,7 @@ void QuasistaticPath::begin_to(double at) {
 /// Holds a load in place of what the path prescribes along z, or no longer.
 void QuasistaticPath::hold_load(std::optional<double> load) {
     segment_.held = load;
-    last_.press(load);
+    last_.prescribe_load(load);
 }
 
 void QuasistaticPath::begin(Along along, double direction) {
@@ -192,7 +191,7 @@ void QuasistaticPath::begin(Along along, double direction) {
     length_ = std::min(length_, longest_step());
     // Beside a load, or where a pull-off ends, forces within the tolerance would add up to a force
     // on the top plane that is none of the contact's.
-    double balance = std::numeric_limits<double>::infinity();
+    double balance = HUGE_VAL;
     if (to_load() && load() != 0.0) balance = 0.5 * load_accuracy * std::abs(load());
     if (segment_.kind == Segment::pull_off && strongest_ > 0.0) balance = 1e-4 * strongest_;
     last_.balance_to(balance);

@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    double smallest_ = std::numeric_limits<double>::infinity();
+    double smallest_ = HUGE_VAL;
     long long found_at_ = 0;
 };
 
@@ -139,7 +139,7 @@ private:
             return;
         spreading_ = false;
         forcing_ = Constants::forcing_loose;
-        expected_ = std::numeric_limits<double>::infinity();
+        expected_ = HUGE_VAL;
         ball_.stop();
         block_.apply_constraint();
     }
@@ -181,7 +181,7 @@ private:
     double distance_ = 0.0;    ///< the largest to a target, Å
     double rms_ = 0.0;         ///< mean residual, eV/Å
     /// Newton's last step should have left less than this, eV/Å.
-    double expected_ = std::numeric_limits<double>::infinity();
+    double expected_ = HUGE_VAL;
     double forcing_ = Constants::forcing_loose;
     bool mixed_precision_ = true;
     double move_max_ = Constants::move_max * options_.scales.length; ///< Å

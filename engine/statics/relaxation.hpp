@@ -40,8 +40,8 @@
 #include "engine/waves/constraint.hpp"
 #include "engine/waves/spectral_block.hpp"
 
+#include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 
 namespace asperity {
@@ -54,8 +54,8 @@ enum class Start {
 
 /// The relaxation is abandoned if the total force leaves this interval, eV/Å.
 struct ForceWindow {
-    double expected = 0.0;                                     ///< expected total force, eV/Å
-    double furthest = std::numeric_limits<double>::infinity(); ///< distance from the expected force
+    double expected = 0.0;      ///< expected total force, eV/Å
+    double furthest = HUGE_VAL; ///< distance from the expected force
 };
 
 /// Options of a relaxation.
@@ -65,7 +65,7 @@ struct RelaxOptions {
     Scales scales;
     /// Largest sum of the residual forces under a prescribed top plane, eV/Å. (Under a load the
     /// largest sum is load_accuracy of the load.)
-    double balance = std::numeric_limits<double>::infinity();
+    double balance = HUGE_VAL;
     long long max_iterations = 200000;
     ForceWindow force_window; ///< atoms only
     /// Called during relaxations, on all ranks, with the iteration and the largest residual force,

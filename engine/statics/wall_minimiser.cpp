@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace asperity {
@@ -23,15 +22,15 @@ WallMinimiser::WallMinimiser(Response& block, const Interface& interface,
       waves_(block.new_waves<double>()), field_(block.new_field<double>()),
       single_field_(block.new_field<float>()), next_(block.new_map<double>()),
       step_(block.new_map<float>()) {
-    spring_ = block.stiffest_wave();
-    estimate_ = spring_ * options.scales.length;
+    stiffest_wave_ = block.stiffest_wave();
+    estimate_ = stiffest_wave_ * options.scales.length;
     mean_ = block.mean_height();
     holder_ = block.holder();
     uniform_force_ = holder_(mean_);
 }
 
 void WallMinimiser::step() {
-    single_ = single_ && estimate_ > Constants::single_precision_error * spring_ * widest_;
+    single_ = single_ && estimate_ > Constants::single_precision_error * stiffest_wave_ * widest_;
     double reversal = 0.0;
     if (single_) { // single precision while it is good enough
         elastic_forces(single_field_);
@@ -95,7 +94,7 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
     const double n = block_.slab().sites, sites = n * n, load = constraint.load() / sites;
     const PlaneView<double> u = block_.moving_layer(0);
     WallRule rule{.reference_height = interface_.reference_height(),
-                  .spring = spring_,
+                  .spring = stiffest_wave_,
                   .momentum = momentum_,
                   .norm = 1.0 / sites,
                   .load = 0.0};
@@ -116,7 +115,7 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
             sums.part(y)[0] = s.reversal;
             sums.part(y)[1] = s.height;
         }
-        estimate_ = spring_ * block_.communicator().max(furthest);
+        estimate_ = stiffest_wave_ * block_.communicator().max(furthest);
         const std::vector<double> total = sums.total();
         reversal = total[0];
         mean = total[1] / (sites * sites); // total() multiplies by the sites
@@ -125,13 +124,13 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
     // in the uniform wave; or the force that lifts the mean to its held height.
     const auto excess = [&](double force) {
         relax(force);
-        if (constraint.is_mean_height()) return spring_ * (mean - constraint.value);
-        return holder_(mean) - spring_ * (mean - mean_) - force;
+        if (constraint.is_mean_height()) return stiffest_wave_ * (mean - constraint.value);
+        return holder_(mean) - stiffest_wave_ * (mean - mean_) - force;
     };
     // A mean height to its rounding, a load well enough for load_accuracy.
     double enough = Constants::mean_force_share * options_.tolerance;
     if (constraint.is_mean_height())
-        enough = 1e-14 * spring_ * std::max(std::abs(constraint.value), widest_);
+        enough = 1e-14 * stiffest_wave_ * std::max(std::abs(constraint.value), widest_);
     else if (load != 0.0)
         enough = std::min(enough, 0.1 * load_accuracy * std::abs(load));
     balance(excess, enough);
@@ -146,9 +145,8 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
 /// secant would still change must be small as well.
 template <class Excess>
 void WallMinimiser::balance(const Excess& excess_at, double enough) {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    const double small = holder_.stiffness > 0.0 ? 0.1 * options_.tolerance : infinite;
-    double force = uniform_force_, excess = excess_at(force), low = -infinite, high = infinite;
+    const double small = holder_.stiffness > 0.0 ? 0.1 * options_.tolerance : HUGE_VAL;
+    double force = uniform_force_, excess = excess_at(force), low = -HUGE_VAL, high = HUGE_VAL;
     double next = force + excess;
     const auto found = [&] {
         return std::abs(excess) <= enough && std::abs(excess) <= small * fall_;
@@ -163,7 +161,7 @@ void WallMinimiser::balance(const Excess& excess_at, double enough) {
         excess = now;
         (excess > 0.0 ? low : high) = force;
         if (next > low && next < high) continue;
-        const bool between = low > -infinite && high < infinite;
+        const bool between = low > -HUGE_VAL && high < HUGE_VAL;
         next = between ? 0.5 * (low + high) : force + 2.0 * excess;
     }
     uniform_force_ = force;

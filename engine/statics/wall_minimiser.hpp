@@ -68,7 +68,7 @@ private:
     const Interface& interface_;
     const RelaxOptions& options_;
     Phases& phases_;
-    double spring_ = 0.0;        ///< L, eV/Å^2
+    double stiffest_wave_ = 0.0; ///< L, eV/Å^2
     double sequence_ = 1.0;      ///< Nesterov's t
     double momentum_ = 0.0;      ///< beta
     double mean_ = 0.0;          ///< mean of u, Å

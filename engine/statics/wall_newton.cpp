@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
 
 namespace asperity {
 
@@ -21,17 +21,17 @@ WallNewton::WallNewton(SpectralBlock& block, const Interface& interface,
                        const Constraint& constraint, const RelaxOptions& options, Phases& phases)
     : block_(block), interface_(interface), phases_(phases), tolerance_(options.tolerance),
       furthest_(interface.wall()->attracts() ? Constants::move_max * options.scales.length
-                                             : std::numeric_limits<double>::infinity()),
-      u_(block.moving_layer(0)), held_(constraint.is_mean_height()),
+                                             : HUGE_VAL),
+      u_(block.moving_layer(0)), mean_is_held_(constraint.is_mean_height()),
       sites_(static_cast<double>(block.slab().sites) * block.slab().sites),
-      spring_(block.stiffest_wave()), gradient_(block.new_field<double>()),
+      stiffest_wave_(block.stiffest_wave()), gradient_(block.new_field<double>()),
       product_(block.new_field<float>()), response_(block.new_field<float>()),
       h_(block.new_map<double>()), weight_(block.new_map<double>()), r_(block.new_map<double>()),
       p_(block.new_map<double>()), d_(block.new_map<double>()), first_(block.new_map<double>()) {
     block.apply_constraint(); // the waves of the equilibrium
     const double mean = block.mean_height();
     block.constrain(constraint);
-    if (held_) {
+    if (mean_is_held_) {
         lift_ = constraint.value - mean;
         of_uniform_.emplace(block.new_map<double>());
     }
@@ -97,7 +97,8 @@ void WallNewton::measure() {
     const double load = block_.constraint().load() / sites_;
     double share = Constants::mean_force_share;
     if (load != 0.0) share = std::min(share, 0.1 * load_accuracy * std::abs(load) / tolerance_);
-    residual_ = std::max({largest(sites, 0.0), std::abs(mean) / share, spring_ * std::abs(lift_)});
+    residual_ =
+        std::max({largest(sites, 0.0), std::abs(mean) / share, stiffest_wave_ * std::abs(lift_)});
 }
 
 /// Sets H, the preconditioner and the right side.
@@ -109,14 +110,14 @@ void WallNewton::linearise() {
     for_sites([&](int x, int y) {
         const double below = wall.below(x, y); // NaN over a hole
         h(x, y) = std::isnan(below) ? 0.0 : wall.stiffness_at(x, y, reference + u_(x, y) - below);
-        weight(x, y) = 1.0 / (spring_ + std::max(0.0, h(x, y)));
+        weight(x, y) = 1.0 / (stiffest_wave_ + std::max(0.0, h(x, y)));
         d_.plane(0)(x, y) = lift_;
         r(x, y) = -g(x, y) - h(x, y) * lift_;
     });
     const double k =
         sum([&](int x, int y) { return damping(x, y) * damping(x, y) * std::max(0.0, h(x, y)); });
-    preconditioner_.emplace(block_, std::max(k / sites_, least_stiffness * spring_));
-    if (!held_) return;
+    preconditioner_.emplace(block_, std::max(k / sites_, least_stiffness * stiffest_wave_));
+    if (!mean_is_held_) return;
     // The response to a uniform force.
     const PlaneView<double> of_uniform = of_uniform_->plane(0);
     respond([](int, int) { return 1.0; });
@@ -160,14 +161,14 @@ bool WallNewton::move() {
         double step = lift_ + part * (d(x, y) - lift_);
         if (const double gap = yields ? reference + u_(x, y) - yields->below(x, y) : NAN;
             !std::isnan(gap))
-            step = yields->step(x, y, gap, step, spring_);
+            step = yields->step(x, y, gap, step, stiffest_wave_);
         u_(x, y) += step;
     });
     // Steps to or from a yield gap miss a held mean height.
-    lift_ = held_ && yields
+    lift_ = mean_is_held_ && yields
                 ? sum([&](int x, int y) { return block_.constraint().value - u_(x, y); }) / sites_
                 : 0.0;
-    if (spring_ * std::abs(lift_) > Constants::mean_force_share * tolerance_) {
+    if (stiffest_wave_ * std::abs(lift_) > Constants::mean_force_share * tolerance_) {
         block_.transform_sites();
     } else {
         block_.apply_constraint();
@@ -192,7 +193,7 @@ template <class Force>
 void WallNewton::respond(const Force& f) {
     const PlaneView<float> to = response_[0].plane(0);
     for_sites([&](int x, int y) { to(x, y) = static_cast<float>(damping(x, y) * f(x, y)); });
-    block_.respond(*preconditioner_, response_);
+    block_.respond(std::cref(*preconditioner_), response_);
 }
 
 /// Returns the site's component of P f after respond(). f: force on the site, eV/Å.
@@ -205,14 +206,14 @@ double WallNewton::response(int x, int y, double f) const {
 /// Returns the preconditioned residual, which has no mean if the mean height is held.
 double WallNewton::preconditioned(int x, int y) const {
     const double z = response(x, y, r_.plane(0)(x, y));
-    return held_ ? z - force_ * of_uniform_->plane(0)(x, y) : z;
+    return mean_is_held_ ? z - force_ * of_uniform_->plane(0)(x, y) : z;
 }
 
 /// Computes P r of the residual r. Returns r.(P r).
 double WallNewton::precondition() {
     const PlaneView<const double> r = std::as_const(r_).plane(0);
     respond([&](int x, int y) { return r(x, y); });
-    if (held_)
+    if (mean_is_held_)
         force_ = sum_of_uniform_ > 0.0
                      ? sum([&](int x, int y) { return response(x, y, r(x, y)); }) / sum_of_uniform_
                      : 0.0;

@@ -39,7 +39,7 @@
 #include "engine/waves/preconditioner.hpp"
 #include "engine/waves/spectral_block.hpp"
 
-#include <limits>
+#include <cmath>
 #include <optional>
 
 namespace asperity {
@@ -81,7 +81,7 @@ private:
     double precondition();
     double response(int x, int y, double f) const;
     double preconditioned(int x, int y) const;
-    double damping(int x, int y) const { return spring_ * weight_.plane(0)(x, y); }
+    double damping(int x, int y) const { return stiffest_wave_ * weight_.plane(0)(x, y); }
     double largest(const PlaneView<const double>& of, double from) const;
     template <class Do>
     void for_sites(const Do& at) const;
@@ -94,9 +94,9 @@ private:
     double tolerance_; ///< eV/Å
     double furthest_;  ///< largest move of a site in a step, Å
     PlaneView<double> u_;
-    bool held_; ///< the mean height is
+    bool mean_is_held_;
     double sites_;
-    double spring_;                  ///< L, eV/Å^2
+    double stiffest_wave_;           ///< L, eV/Å^2
     double uniform_stiffness_ = 0.0; ///< stiffness of the uniform wave, eV/Å^2 per site
     double lift_ = 0.0;              ///< change of the held mean height that is to be made, Å
     double force_ = 0.0;             ///< force on each site that holds the mean height, eV/Å
@@ -104,10 +104,10 @@ private:
     double uniform_product_ = 0.0;   ///< uniform wave of S p, eV/Å
     double residual_ = 0.0;          ///< eV/Å
     long long products_ = 0;
-    bool unstable_ = false; ///< the curvature along a direction was negative
-    double smallest_ = std::numeric_limits<double>::infinity(); ///< smallest residual, eV/Å
-    int stalled_ = 0; ///< whole steps since the residual halved
-    int cut_ = 0;     ///< steps that were cut
+    bool unstable_ = false;      ///< the curvature along a direction was negative
+    double smallest_ = HUGE_VAL; ///< smallest residual, eV/Å
+    int stalled_ = 0;            ///< whole steps since the residual halved
+    int cut_ = 0;                ///< steps that were cut
     std::optional<Preconditioner> preconditioner_;
     SiteField<double> gradient_; ///< gradient of the energy at the sites, eV/Å
     SiteField<float> product_;   ///< N^2 S p without the uniform wave of p, eV/Å

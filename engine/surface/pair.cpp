@@ -141,12 +141,13 @@ bool CounterPlace::is_quarter() const { return std::remainder(turn, 90.0) == 0.0
 std::vector<double> in_place(std::vector<double> h, int n, double spacing,
                              const CounterPlace& place) {
     h = moved(h, n, [n](int x, int y) { return std::pair(n - 1 - x, y); });
-    const double rest = std::remainder(place.turn, 90.0);
-    const int quarters = periodic(static_cast<int>(std::lround((place.turn - rest) / 90.0)), 4);
+    const double remainder = std::remainder(place.turn, 90.0);
+    const int quarters =
+        periodic(static_cast<int>(std::lround((place.turn - remainder) / 90.0)), 4);
     for (int k = 0; k < quarters; ++k)
         h = moved(h, n, [n](int x, int y) { return std::pair(y, n - 1 - x); });
     const double x = place.shift_x / spacing, y = place.shift_y / spacing;
-    if (rest != 0.0) return turned(std::move(h), n, rest * pi / 180.0, x, y);
+    if (remainder != 0.0) return turned(std::move(h), n, remainder * pi / 180.0, x, y);
     const double whole_x = std::round(x), whole_y = std::round(y);
     constexpr double rounding = 1e-9;
     if (std::abs(x - whole_x) < rounding && std::abs(y - whole_y) < rounding) {

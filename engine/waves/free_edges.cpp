@@ -115,8 +115,8 @@ double FreeEdges::compliance(int nx, int ny) const {
 }
 
 double FreeEdges::near(WavePhase x, WavePhase y, double phase) const {
-    const double rest = block_.normal_compliance(x, y) - far_wave(phase);
-    return has_added_ ? rest - added(phase) : rest;
+    const double remainder = block_.normal_compliance(x, y) - far_wave(phase);
+    return has_added_ ? remainder - added(phase) : remainder;
 }
 
 double FreeEdges::far_wave(double phase) const {

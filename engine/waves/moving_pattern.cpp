@@ -26,11 +26,11 @@ MovingPattern::MovingPattern(const BlockOptions& block, int axis, double velocit
         stiffening_.push_back(std::norm(m) / m.real());
 }
 
-MovingPattern::Factors MovingPattern::rest() const {
-    Factors rest = modulus_;
-    for (std::size_t k = 0; k < rest.size(); ++k)
-        rest[k] -= stiffening_[k];
-    return rest;
+MovingPattern::Factors MovingPattern::remainder() const {
+    Factors remainder = modulus_;
+    for (std::size_t k = 0; k < remainder.size(); ++k)
+        remainder[k] -= stiffening_[k];
+    return remainder;
 }
 
 } // namespace asperity

@@ -41,7 +41,7 @@ public:
     }
     using Factors = std::vector<std::complex<double>>;
     /// Returns m - C of the waves 0 .. N-1 along the axis.
-    Factors rest() const;
+    Factors remainder() const;
     /// Returns m_k of branch k for these waves.
     const Factors& of_branch(std::size_t k) const { return branches_[k]; }
     /// Returns the number of branches.

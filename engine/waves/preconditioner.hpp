@@ -24,6 +24,8 @@ public:
     /// Sets `to` to (S + k)^-1 from + fraction to, for this rank's block b of waves; `to` may be
     /// `from`.
     void apply(int b, const float* from, double fraction, float* to) const;
+    /// Replaces block b of waves by (S + k)^-1 of them.
+    void operator()(int b, float* waves) const { apply(b, waves, 0.0, waves); }
 
 private:
     TableLayout layout_;

@@ -3,7 +3,6 @@
 #include "engine/waves/response.hpp"
 
 #include "decomposition/global_sum.hpp"
-#include "engine/waves/preconditioner.hpp"
 #include "kernels/elastic_level.hpp"
 
 #include <algorithm>
@@ -49,8 +48,8 @@ void Response::gradient(Waves<double>& g) const {
     if (constraint_.is_mean_height()) mean = 0.0;
 }
 
-SiteRows<float> Response::respond(const Preconditioner& preconditioner) const {
-    const double sites = slab_.sites, norm = 1.0 / (sites * sites), k = preconditioner.k();
+SiteRows<float> Response::respond(double k, const Inverse& inverse) const {
+    const double sites = slab_.sites, norm = 1.0 / (sites * sites);
     double mean = -norm * constraint_.load();
     if (constraint_.is_top()) mean += held_stiffness() * constraint_.value;
     const std::size_t normal = slab_.block_length(components_ - 1);
@@ -71,7 +70,7 @@ SiteRows<float> Response::respond(const Preconditioner& preconditioner) const {
         if (memory_force_)
             combine_row(-1.0, memory_force_->block(b), 1.0, waves,
                         static_cast<int>(memory_force_->length()));
-        preconditioner.apply(b, waves, 0.0, waves);
+        inverse(b, waves);
         if (uniform && constraint_.is_mean_height())
             waves[normal] = static_cast<float>(constraint_.value);
         blocks.put(b, waves);
@@ -149,8 +148,8 @@ void Response::stiffen(SiteField<T>& displacement) const {
 }
 template void Response::stiffen(SiteField<float>&) const;
 
-void Response::respond(const Preconditioner& preconditioner, SiteField<float>& forces) const {
-    change_waves(forces, [&](int b, float* waves) { preconditioner.apply(b, waves, 0.0, waves); });
+void Response::respond(const Inverse& inverse, SiteField<float>& forces) const {
+    change_waves(forces, inverse);
 }
 
 template <class T>
@@ -203,7 +202,8 @@ double Response::held_stiffness() const {
 
 double Response::top() const {
     if (!constraint_.is_top())
-        return mean_height() - (constraint_.stretches ? constraint_.load() / spring() : 0.0);
+        return mean_height() -
+               (constraint_.stretches ? constraint_.load() / stretch_stiffness() : 0.0);
     return constraint_.value +
            (options_.top_spring ? top_force() / options_.top_spring.stiffness : 0.0);
 }
@@ -247,10 +247,10 @@ StepEnergies Response::energies() const {
     if (slab_.holds_uniform()) su.uniform(components_ - 1) -= from;
     stiffen_relaxed(su);
     double twice = dot(waves_, su);
-    if (from != 0.0) twice -= from * spring() / factor_ * (mean_height() - from);
+    if (from != 0.0) twice -= from * stretch_stiffness() / factor_ * (mean_height() - from);
     const double load = constraint_.stretches ? constraint_.load() : 0.0;
     StepEnergies energies;
-    energies[Term::elastic] = 0.5 * (twice + load * load / spring());
+    energies[Term::elastic] = 0.5 * (twice + load * load / stretch_stiffness());
     if (options_.top_spring) {
         const double force = constraint_.is_mean_height() ? 0.0 : top_force();
         energies[Term::spring] = 0.5 * force * force / options_.top_spring.stiffness;

@@ -43,14 +43,13 @@
 #include "engine/waves/moving_pattern.hpp"
 #include "engine/waves/stiffness_table.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <type_traits>
 #include <vector>
 
 namespace asperity {
-
-class Preconditioner;
 
 /// Force that holds the uniform normal wave, linear in the mean height of the layer.
 struct Holder {
@@ -113,10 +112,13 @@ public:
     /// load, with F the forces in interface_force() and the load spread over the sites. The
     /// component of the uniform normal wave is zero if the mean height is held. Collective.
     void gradient(Waves<double>& g) const;
+    /// Replaces this rank's block b of waves by (S + k)^-1 of them (preconditioner.hpp).
+    using Inverse = std::function<void(int b, float* waves)>;
     /// Returns the displacements (S + k)^-1 (k u + F + load), Å: the equilibrium under the present
-    /// forces if a spring of stiffness k tied each site to its current place. The result still has
-    /// to be transformed along x. Uses the displacements at the sites, not the waves. Collective.
-    SiteRows<float> respond(const Preconditioner& preconditioner) const;
+    /// forces if a spring of stiffness k, eV/Å^2, tied each site to its current place. The result
+    /// still has to be transformed along x. Uses the displacements at the sites, not the waves.
+    /// Collective.
+    SiteRows<float> respond(double k, const Inverse& inverse) const;
     /// Sets f to S u + norm g for this rank's block b of waves; f may be u or g.
     template <class T>
     void stiffen(int b, const T* u, double norm, const T* g, T* f) const;
@@ -124,7 +126,7 @@ public:
     template <class T>
     void stiffen(SiteField<T>& displacement) const;
     /// Replaces forces on the sites, eV/Å, by N^2 (S + k)^-1 of them, Å. Collective.
-    void respond(const Preconditioner& preconditioner, SiteField<float>& forces) const;
+    void respond(const Inverse& inverse, SiteField<float>& forces) const;
     /// Replaces a displacement, Å, by N^2 times the elastic forces that resist it, eV/Å, including
     /// the known forces of branches, without the uniform normal wave. Collective.
     template <class T>
@@ -178,7 +180,9 @@ protected:
     ~Response() = default;
 
     /// Returns the stiffness of the whole block under uniform stretch, eV/Å.
-    double spring() const { return factor_ * table_.uniform() * slab_.sites * slab_.sites; }
+    double stretch_stiffness() const {
+        return factor_ * table_.uniform() * slab_.sites * slab_.sites;
+    }
     /// Returns the stiffness of the uniform normal wave against the drive, eV/Å^2 per site: block
     /// and machine in series.
     double held_stiffness() const;

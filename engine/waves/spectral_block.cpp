@@ -30,15 +30,15 @@ void SpectralBlock::begin_step(double dt, double last) {
 
 double SpectralBlock::begin_turn(const MovingPattern& pattern) {
     const bool first = !pattern_;
-    if (first) begin_step(HUGE_VAL); // relaxed, and nothing is known
+    if (first) begin_step(units::forever); // relaxed, and nothing is known
     pattern_ = pattern;
     Waves<double> change = new_waves<double>();
     combine(-1.0, *memory_force_, 0.0, change);
     combine(1.0, waves_, 0.0, *memory_force_);
-    const MovingPattern::Factors rest = pattern.rest();
+    const MovingPattern::Factors remainder = pattern.remainder();
 #pragma omp parallel for schedule(static)
     for (int b = 0; b < memory_force_->blocks(); ++b)
-        scale_waves(b, pattern.axis(), rest, memory_force_->block(b));
+        scale_waves(b, pattern.axis(), remainder, memory_force_->block(b));
     stiffen_relaxed(*memory_force_);
     combine(1.0, *memory_force_, 1.0, change);
     return first ? HUGE_VAL : std::sqrt(dot(change, change)) / slab_.sites;

@@ -6,10 +6,10 @@
 // (emulated.cpp, always). Both compile the same kernels (passes.hpp).
 //
 // A step from u(n), v(n - 1/2) to u(n + 1), v(n + 1/2) over all levels takes three launches:
-//   follow   constrained planes are interpolated from the coarse planes; the top plane is set
-//   forces   sites of the interface, and the upper faces of all levels
-//   advance  restriction, elastic forces, kick, and drift into the other displacement array, with
-//            the periodic images of every node
+//   interpolate  constrained planes from the coarse planes; the top plane is set
+//   forces       sites of the interface, and the upper faces of all levels
+//   advance      restriction, elastic forces, kick, and drift into the other displacement array,
+//                with the periodic images of every node
 // Several ranks need three more launches: restrict_to_shared (forces on a level that every rank
 // holds whole), pack and unpack (halos).
 //
@@ -119,7 +119,7 @@ struct DeviceFunctions {
     const char* (*copy)(void* to, const void* from, std::size_t bytes);
 
     /// Interpolates the constrained planes and sets the top plane.
-    const char* (*follow)(const DeviceStep& step);
+    const char* (*interpolate)(const DeviceStep& step);
     /// Computes the forces of the interface and of the upper faces. The numbers of a tabulated
     /// potential are in device memory.
     const char* (*forces)(const DeviceStep& step, const PairPotential& potential);

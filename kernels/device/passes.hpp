@@ -30,7 +30,7 @@ ASPERITY_INLINE int locate(const NodeRanges& ranges, long long& i) {
 }
 
 /// Interpolation of the constrained planes, halo included, and motion of the top plane.
-struct Follow {
+struct Interpolate {
     DeviceStep s;
     ASPERITY_HOST_DEVICE void operator()(long long i, PassSums&) const {
         if (i == 0) s.sums[0] = s.sums[1] = PassSums{}; // the next launches add to them
@@ -312,11 +312,11 @@ struct Halo {
         const int n = halo.along_x ? level.nx : level.ny;
         const int begin = packs ? (high ? n - h : 0) : (high ? n : -h);
         const int x = static_cast<int>(i % width) + (halo.along_x ? begin : -h);
-        long long rest = i / width;
-        const int y = static_cast<int>(rest % rows) + (halo.along_x ? 0 : begin);
-        rest /= rows;
-        const int z = static_cast<int>(rest % level.cells);
-        const int component = static_cast<int>(rest / level.cells);
+        long long remainder = i / width;
+        const int y = static_cast<int>(remainder % rows) + (halo.along_x ? 0 : begin);
+        remainder /= rows;
+        const int z = static_cast<int>(remainder % level.cells);
+        const int component = static_cast<int>(remainder / level.cells);
         const VectorVolume<double>& u = level.u[halo.buffer];
         const PlaneView<double> plane = (component == 0 ? u.x : component == 1 ? u.y : u.z)[z];
         if constexpr (packs)
@@ -328,8 +328,8 @@ struct Halo {
     }
 };
 
-inline const char* follow(const DeviceStep& s) {
-    return launch<false>(Follow{s}, s.constrained.first[s.constrained.levels], nullptr);
+inline const char* interpolate(const DeviceStep& s) {
+    return launch<false>(Interpolate{s}, s.constrained.first[s.constrained.levels], nullptr);
 }
 
 inline const char* forces(const DeviceStep& s, const PairPotential& potential) {
@@ -367,7 +367,7 @@ const char* halo(const DeviceStep& s, const DeviceHalo& h) {
 }
 
 DeviceFunctions functions_with(auto allocate, auto release, auto copy) {
-    return {allocate,           release, copy,       follow,     forces,
+    return {allocate,           release, copy,       interpolate, forces,
             restrict_to_shared, advance, halo<true>, halo<false>};
 }
 

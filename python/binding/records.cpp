@@ -24,6 +24,60 @@ double of(const Record& record) {
     return record[term];
 }
 
+void bind_point(py::module_& m) {
+    using Point = LedPath::Point;
+    py::class_<Point> path_point(
+        m, "Point", "Point of a quasi-static path: force balance at the held quantity.");
+    for (const io::EnergyTerm& row : io::energy_terms)
+        if (row.kind == io::EnergyTerm::dissipated)
+            path_point.def_property_readonly(
+                std::string(row.key).c_str(), [&row](const Point& p) { return p[row.term]; },
+                fmt::format("{}, since the path began, eV", row.meaning).c_str());
+    path_point
+        .def_readonly(
+            "top", &Point::top,
+            "displacement of the top plane since the start, Å; 0 if the mean height is held")
+        .def_readonly("mean_height", &Point::mean_height,
+                      "mean height of the lowest layer above the substrate's zero, Å")
+        .def_readonly(
+            "force", &Point::force,
+            "total normal force of the substrate on the lowest layer, eV/Å; repulsion is positive")
+        .def_property_readonly("energy", &Point::stored, "energy of block and interface, eV")
+        .def_property_readonly("elastic_energy", of<Term::elastic, Point>, "elastic energy, eV")
+        .def_property_readonly("interface_energy", of<Term::interface, Point>,
+                               "energy of the interface, eV")
+        .def_property_readonly("work", of<Term::work, Point>,
+                               "work of the holder of the block since the path began, eV")
+        .def_property_readonly("dissipated", of<Term::lost, Point>,
+                               "energy dissipated at instabilities, since the path began, eV")
+        .def_readonly("mean_set", &Point::mean_set,
+                      "mean permanent set of a surface that yields, Å")
+        .def_readonly("largest_set", &Point::largest_set,
+                      "largest permanent set of a site of a surface that yields, Å")
+        .def_property_readonly(
+            "losses",
+            [](const Point& p) {
+                py::dict losses;
+                for (const io::EnergyTerm& row : io::energy_terms)
+                    if (row.is_loss()) losses[py::str(std::string(row.key))] = p[row.term];
+                return losses;
+            },
+            "all losses since the path began, by their names in result.json, eV")
+        .def_property_readonly("branch_energy", of<Term::branches, Point>,
+                               "part of elastic_energy in the branches of a viscoelastic block, eV")
+        .def_property_readonly(
+            "time", [](const Point& p) { return p.time / units::picosecond; },
+            "time of the path, for a viscoelastic block, ps")
+        .def_readonly("instabilities", &Point::instabilities,
+                      "number of points of the path with an instability")
+        .def_readonly("contact", &Point::contact_fraction,
+                      "fraction of the sites whose nearest atom is in contact")
+        .def_readonly("repulsive_fraction", &Point::repulsive_fraction,
+                      "fraction of the sites whose net normal force is repulsive")
+        .def_readonly("number", &Point::step, "number of points since the path began")
+        .def("__repr__", shown);
+}
+
 } // namespace
 
 void bind_records(py::module_& m) {
@@ -83,58 +137,7 @@ void bind_records(py::module_& m) {
         .def_readonly("iterations", &RestState::iterations, "iterations of the relaxation")
         .def_readonly("maps", &RestState::maps, "SiteMaps of the state: gap, contact, pressure")
         .def("__repr__", shown);
-
-    using Point = LedPath::Point;
-    py::class_<Point> path_point(
-        m, "Point", "Point of a quasi-static path: force balance at the held quantity.");
-    for (const io::EnergyTerm& row : io::energy_terms)
-        if (row.kind == io::EnergyTerm::dissipated)
-            path_point.def_property_readonly(
-                std::string(row.key).c_str(), [&row](const Point& p) { return p[row.term]; },
-                fmt::format("{}, since the path began, eV", row.meaning).c_str());
-    path_point
-        .def_readonly(
-            "top", &Point::top,
-            "displacement of the top plane since the start, Å; 0 if the mean height is held")
-        .def_readonly("mean_height", &Point::mean_height,
-                      "mean height of the lowest layer above the substrate's zero, Å")
-        .def_readonly(
-            "force", &Point::force,
-            "total normal force of the substrate on the lowest layer, eV/Å; repulsion is positive")
-        .def_property_readonly("energy", &Point::stored, "energy of block and interface, eV")
-        .def_property_readonly("elastic_energy", of<Term::elastic, Point>, "elastic energy, eV")
-        .def_property_readonly("interface_energy", of<Term::interface, Point>,
-                               "energy of the interface, eV")
-        .def_property_readonly("work", of<Term::work, Point>,
-                               "work of the holder of the block since the path began, eV")
-        .def_property_readonly("dissipated", of<Term::lost, Point>,
-                               "energy dissipated at instabilities, since the path began, eV")
-        .def_readonly("mean_set", &Point::mean_set,
-                      "mean permanent set of a surface that yields, Å")
-        .def_readonly("largest_set", &Point::largest_set,
-                      "largest permanent set of a site of a surface that yields, Å")
-        .def_property_readonly(
-            "losses",
-            [](const Point& p) {
-                py::dict losses;
-                for (const io::EnergyTerm& row : io::energy_terms)
-                    if (row.is_loss()) losses[py::str(std::string(row.key))] = p[row.term];
-                return losses;
-            },
-            "all losses since the path began, by their names in result.json, eV")
-        .def_property_readonly("branch_energy", of<Term::branches, Point>,
-                               "part of elastic_energy in the branches of a viscoelastic block, eV")
-        .def_property_readonly(
-            "time", [](const Point& p) { return p.time / units::picosecond; },
-            "time of the path, for a viscoelastic block, ps")
-        .def_readonly("instabilities", &Point::instabilities,
-                      "number of points of the path with an instability")
-        .def_readonly("contact", &Point::contact_fraction,
-                      "fraction of the sites whose nearest atom is in contact")
-        .def_readonly("repulsive_fraction", &Point::repulsive_fraction,
-                      "fraction of the sites whose net normal force is repulsive")
-        .def_readonly("number", &Point::step, "number of points since the path began")
-        .def("__repr__", shown);
+    bind_point(m);
 }
 
 } // namespace asperity::binding

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,7 +24,6 @@ namespace {
 /// place of an end at infinity a number that no scene means.
 std::vector<std::string> ends_of(const io::Schema::Key& key) {
     const bool whole = key.kind() == "integer";
-    constexpr double infinite = std::numeric_limits<double>::infinity();
     const double huge = whole ? 2e9 : 1e300;
     const auto& [low, high, low_open, high_open] = key.range;
     const double step = whole ? 1.0 : 0.0;
@@ -34,8 +32,8 @@ std::vector<std::string> ends_of(const io::Schema::Key& key) {
     };
     std::vector<std::string> ends;
     for (const double end :
-         {std::isfinite(low) ? (low_open ? inwards(low, infinite) : low) : -huge,
-          std::isfinite(high) ? (high_open ? inwards(high, -infinite) : high) : huge})
+         {std::isfinite(low) ? (low_open ? inwards(low, HUGE_VAL) : low) : -huge,
+          std::isfinite(high) ? (high_open ? inwards(high, -HUGE_VAL) : high) : huge})
         ends.push_back(whole ? fmt::format("{:.0f}", end) : fmt::format("{:.17g}", end));
     return ends;
 }

@@ -97,12 +97,12 @@ TEST(Drive, PullOffEndsOutOfReach) {
     EXPECT_TRUE(drive.done());
 }
 
-TEST(Drive, NothingIsOutOfReachBeforeTheTopIsBackAtItsStart) {
-    EXPECT_FALSE(beyond_range(-1e-9, 0.0, 9.0)) << "the force passes through zero on the way";
-    EXPECT_TRUE(beyond_range(0.0, 0.0, 9.0));
-    EXPECT_TRUE(beyond_range(1.0, -8.9e-6, 9.0));
-    EXPECT_FALSE(beyond_range(1.0, -9.1e-6, 9.0));
-    EXPECT_FALSE(beyond_range(1.0, 9.1e-6, 9.0));
+TEST(Drive, ApartIsBeyondTheRangeAndWithoutForce) {
+    EXPECT_FALSE(are_apart(false, 0.0, 9.0)) << "the force passes through zero on the way";
+    EXPECT_TRUE(are_apart(true, 0.0, 9.0));
+    EXPECT_TRUE(are_apart(true, -8.9e-6, 9.0));
+    EXPECT_FALSE(are_apart(true, -9.1e-6, 9.0));
+    EXPECT_FALSE(are_apart(true, 9.1e-6, 9.0));
 }
 
 TEST(Drive, SegmentsThatWereNotAskedForAreLeftOut) {

@@ -181,7 +181,7 @@ TEST(Journal, IsCutAndCheckedByItsMark) {
         journal.append(3, bytes("again"));
         std::vector<std::string> found;
         journal.replay([&](std::uint64_t, PayloadReader payload) {
-            const std::vector<char> text = payload.rest<char>();
+            const std::vector<char> text = payload.remaining<char>();
             found.emplace_back(text.begin(), text.end());
         });
         ASSERT_EQ(found.size(), 101u);
@@ -226,7 +226,7 @@ TEST(Journal, TakesAnEntryInPartsAndGivesItInParts) {
         if (kind != 2) return;
         for (; !payload.at_end(); found += payload.get<char>()) {
             PayloadReader ahead = payload;
-            found += static_cast<char>(ahead.rest<char>().back());
+            found += static_cast<char>(ahead.remaining<char>().back());
         }
         EXPECT_THROW(payload.get<char>(), FileError);
     });

@@ -288,7 +288,7 @@ TEST(MapFile, TheSceneHoldsOverTheFileAndANoteSaysSo) {
               "say which it is: surface.file_unit = \"nm\"");
     // UTF-8 read as Latin-1, as files of SUR have it.
     EXPECT_EQ(read_map_file(file("\xc3\x82\xc2\xb5m", 15.0, 1.0)).width, 150000.0);
-    for (const double scale : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+    for (const double scale : {0.0, -1.0, std::nan(""), HUGE_VAL})
         for (const char* unit : {"auto", "nm"})
             EXPECT_NE(refused(file("nm", 15.0, scale), {unit}).what.find("is no factor"),
                       std::string::npos);

@@ -113,7 +113,7 @@ TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
                     EXPECT_EQ(r.top_force, r.force);
                     constexpr double h = 1e-4;
                     unstable += one.force(r.mean_height + h) - one.force(r.mean_height - h) >
-                                2.0 * h * c.spring();
+                                2.0 * h * c.stretch_stiffness();
                 }
             EXPECT_GT(unstable, thickness > 40 ? 10 : 0)
                 << "points where a block on its spring cannot stand";

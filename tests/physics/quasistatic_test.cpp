@@ -157,7 +157,8 @@ TEST(Quasistatic, SnapsWhereTheInterfaceGetsStifferThanTheBlock) {
         for (const auto* branch : {&in, &out})
             for (const StepRecord& r : *branch) {
                 EXPECT_NEAR(r.force, one.force(r.mean_height), 1e-9 * c.sites());
-                EXPECT_NEAR(r.top, one.top(r.mean_height), tolerance * c.sites() / c.spring());
+                EXPECT_NEAR(r.top, one.top(r.mean_height),
+                            tolerance * c.sites() / c.stretch_stiffness());
             }
         EXPECT_NEAR(path.now().top, 0.0, step);
 

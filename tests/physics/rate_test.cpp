@@ -12,7 +12,6 @@
 
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <numeric>
@@ -126,7 +125,7 @@ TEST(Rate, TheModulusFallsByItsSeries) {
         rest.acting_stiffness(0, 0).zz * (0.3 + 0.2); // of the jump of the top, relaxed
     // At rest there, and from here moved by the top.
     block.constrain(Constraint::top(0.3));
-    block.begin_step(std::numeric_limits<double>::infinity());
+    block.begin_step(units::forever);
     block.end_step();
     double time = 0.0;
     block.begin_step(1e-12);
@@ -197,7 +196,7 @@ TEST(Rate, AStepThatContinuesAnotherFollowsTheParabola) {
                      dt = first * std::pow(2.0, place(random));
         const double d0 = place(random), d = place(random);
         block.set_uniform(0.0);
-        block.begin_step(std::numeric_limits<double>::infinity());
+        block.begin_step(units::forever);
         block.end_step();
         block.begin_step(first);
         block.set_uniform(d0);
@@ -246,12 +245,12 @@ TEST(Rate, TheErrorOfStepsInTimeFallsWithTheThirdPower) {
         std::vector<double> wrong, judged;
         for (const int n : {40, 80, 160}) {
             block.set_uniform(0.0);
-            block.begin_step(std::numeric_limits<double>::infinity());
+            block.begin_step(units::forever);
             block.end_step();
             double error = 0.0;
             StepEnergies energies;
             for (int i = 1; i <= n; ++i) {
-                block.begin_step(span / n, i == 1 ? HUGE_VAL : span / n);
+                block.begin_step(span / n, i == 1 ? units::forever : span / n);
                 block.set_uniform(std::pow(static_cast<double>(i) / n, 3));
                 energies = block.energies();
                 error += energies.error;
@@ -276,7 +275,7 @@ TEST(Rate, APathIsTheMotionOfOneCoordinate) {
     const SmearedWall smooth(LennardJones{0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false);
     test::PathCase reference(relaxing(8, 3, two), test::flat_surface(8), smooth);
     const double start = reference.interface.start_height();
-    const double spring = reference.spring() / 64.0, down = start - 2.0;
+    const double spring = reference.stretch_stiffness() / 64.0, down = start - 2.0;
     const SmearedWall<LennardJones>::Terms<double> law(smooth);
     struct State {
         double u;
@@ -424,9 +423,9 @@ TEST(Rate, ASmallOscillationLosesByTheLossModulus) {
         double expected = 0.0;
         for (int n = 1; n < 400; n += 2) {
             const std::complex<double> iw(0.0, 2.0 * pi * n / period);
-            std::complex<double> s = c.spring() / 16.0;
+            std::complex<double> s = c.stretch_stiffness() / 16.0;
             for (const Branch& b : two)
-                s += c.spring() / 16.0 * b.ratio * iw * b.time / (1.0 + iw * b.time);
+                s += c.stretch_stiffness() / 16.0 * b.ratio * iw * b.time / (1.0 + iw * b.time);
             const std::complex<double> both = 1000.0 * s / (1000.0 + s);
             const double a = 8.0 * u0 / (pi * pi * n * n);
             expected += 16.0 * n * pi * a * a * both.imag(); // n times in a period

@@ -115,7 +115,7 @@ TEST(SlideOverWall, FrictionOfOneWaveIsThatOfTheLossModulus) {
                     c.block.layer().z.plane(0)(x, y) =
                         mean + c.surface.height[static_cast<std::size_t>(y * sites + x)];
             c.block.hold(Constraint::mean_height(mean));
-            c.block.begin_step(HUGE_VAL);
+            c.block.begin_step(units::forever);
             c.block.end_step();
             const double turning = along > 0.0 ? 1.0 : -1.0;
             const std::vector<RestoredArray> extensions = c.block.memories().front()->arrays();

@@ -139,7 +139,7 @@ TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
             const Preconditioner preconditioner(block, k);
             auto waves = block.new_waves<float>();
             auto target = block.new_field<float>();
-            to_sites(block.respond(preconditioner), target);
+            to_sites(block.respond(k, std::cref(preconditioner)), target);
 
             auto g = block.new_waves<double>();
             block.gradient(g);

@@ -37,7 +37,7 @@ double in_series(double one, double other) { return one * other / (one + other);
 
 TEST(Spring, IsInSeriesWithTheBlock) {
     const Flat c;
-    const double block = c.spring();
+    const double block = c.stretch_stiffness();
     for (const double spring : {1e-3 * block, block, 50.0 * block}) {
         Flat held(spring);
         SpectralBlock& b = held.block;
@@ -76,7 +76,8 @@ TEST(Spring, LetsTheBlockJumpInAtItsStiffnessTimesTheRange) {
     const double A = -ExponentialWall(adhesion, range, 24.0).energy(0.0);
     const Flat c;
     for (const double share : {0.003, 0.03, 0.3}) {
-        const double spring = share * c.spring(), k = in_series(spring, c.spring());
+        const double spring = share * c.stretch_stiffness(),
+                     k = in_series(spring, c.stretch_stiffness());
         Flat held(spring);
         SpectralBlock& block = held.block;
         const double top = held.interface.start_height(), d = 1e-4 * range;
@@ -97,7 +98,7 @@ TEST(Spring, LetsTheBlockJumpInAtItsStiffnessTimesTheRange) {
 TEST(Spring, LosesMoreTheSofterItIs) {
     double last = 0.0;
     for (const double share : {1e9, 0.1}) {
-        Flat held(share * Flat().spring());
+        Flat held(share * Flat().stretch_stiffness());
         test::KeptPath path = held.path(2e-6, 1.0);
         path.start();
         const auto in = test::follow(path, Segment::approach);

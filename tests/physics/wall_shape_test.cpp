@@ -71,7 +71,7 @@ constexpr double work = 0.7, range = 1.3, stiffness = 40.0;
 ShapedWall law_of(const Known& k) { return {k.shape.shape(), work, range, stiffness}; }
 
 double at_rest(const ShapedWall& law, double gap, double target, double spring) {
-    return ShapedWall::Terms<double>(law).rest(gap, target, spring);
+    return ShapedWall::Terms<double>(law).equilibrium(gap, target, spring);
 }
 
 } // namespace

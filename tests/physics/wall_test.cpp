@@ -67,7 +67,7 @@ struct AtWall : test::PathCase {
 
 template <class Law>
 double at_rest(const Law& law, double gap, double target, double spring) {
-    return typename Law::template Terms<double>(law).rest(gap, target, spring);
+    return typename Law::template Terms<double>(law).equilibrium(gap, target, spring);
 }
 
 double modulus() { return test::paper_block(8, 8, 0).contact_modulus(); }

@@ -46,7 +46,7 @@ void lead(Driven& s, const Look& look, bool observe = true) {
         const StepRecord& now = s.step(observe);
         strongest = std::max(strongest, -now.force);
         const bool over = s.drive().observe({now.time, now.force, now.top,
-                                             beyond_range(now.top, now.force, strongest),
+                                             are_apart(now.top >= 0.0, now.force, strongest),
                                              s.interface().reference_height()});
         look(now, segment, over);
         if (s.steps() > 300000) throw std::runtime_error("a path in time has no end");

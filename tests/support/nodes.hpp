@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace asperity::test {
@@ -56,7 +55,7 @@ inline double largest_of(const std::vector<double>& a) {
 }
 /// Infinite where they are not of one length.
 inline double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
-    if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
+    if (a.size() != b.size()) return HUGE_VAL;
     double largest = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i)
         largest = std::max(largest, std::abs(a[i] - b[i]));

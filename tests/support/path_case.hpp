@@ -109,7 +109,7 @@ struct PathCase {
     }
     double sites() const { return static_cast<double>(options.sites) * options.sites; }
     /// Of the whole block under uniform stretch, eV/Å^2.
-    double spring() const {
+    double stretch_stiffness() const {
         return (options.lame() + 2.0 * options.shear_modulus()) * sites() * options.spacing /
                options.thickness;
     }
@@ -184,10 +184,12 @@ struct OneDimension {
         return std::abs(across - beside); // of a smooth force third differences, h^3
     }
     /// Displacement of the top plane at which z is an equilibrium.
-    double top(double z) const { return z - c.interface.start_height() - force(z) / c.spring(); }
+    double top(double z) const {
+        return z - c.interface.start_height() - force(z) / c.stretch_stiffness();
+    }
     double total(double z, double top_at) const {
         const double stretch = z - c.interface.start_height() - top_at;
-        return potential(z) + 0.5 * c.spring() * stretch * stretch;
+        return potential(z) + 0.5 * c.stretch_stiffness() * stretch * stretch;
     }
     /// The z in [from, to] where top() is least (sign 1) or greatest (-1): d force/dz = spring.
     double turning_point(double from, double to, double sign) const {
