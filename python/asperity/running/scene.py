@@ -117,7 +117,7 @@ def scene_given(scene: SceneLike, overrides: Overrides | None) -> Iterator[tuple
 
 @contextlib.contextmanager
 def scene_file(scene: SceneLike, folder: str = "") -> Iterator[str]:
-    """Yields the file of a scene; for a dictionary a temporary one, named by its entry "name"."""
+    """Yields the file of a scene; for a dictionary a temporary one, named by its entry "name". Raises SceneError for anything else."""
     piped = str(scene) == STANDARD_INPUT
     if isinstance(scene, Mapping):
         name, text = scene.get("name", "scene"), toml_of({key: value for key, value in scene.items() if key != "name"})

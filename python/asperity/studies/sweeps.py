@@ -25,6 +25,7 @@ import h5py
 import numpy as np
 
 from .. import terminal
+from ..above import from_above
 from ..arguments import checks_call, checks_calls
 from ..errors import Error, InputOutputError, Named, SceneError
 from ..files import store
@@ -71,10 +72,6 @@ class Sweep(Named):
     directory : Path
         Directory of the sweep.
     """
-
-    if TYPE_CHECKING:
-        def plot(self, name: str = "gamma", ax: Axes | None = None) -> Axes: ...
-        def report(self, out: str | os.PathLike | None = None) -> Path: ...
 
     name: str
     scene: dict[str, Any]
@@ -198,6 +195,38 @@ class Sweep(Named):
         if stride > 1:
             lines.append(f"  (every {stride}th of {len(rows)} lines; all are in the files)")
         return "\n".join(lines)
+
+    def plot(self, name: str = "gamma", ax: Axes | None = None) -> Axes:
+        """Draws a plot over the swept key.
+
+        Parameters
+        ----------
+        name : str
+            "gamma", "area", "separation", "radius", "pull-off", "friction", "sliding-area" or "hysteresis".
+        ax : matplotlib Axes, optional
+            Axes to draw into; by default new ones.
+
+        Returns
+        -------
+        Axes
+            The axes with the plot.
+        """
+        return from_above("plots.sweep.draw")([self], name, ax)
+
+    def report(self, out: str | os.PathLike | None = None) -> Path:
+        """Writes report.html into a directory.
+
+        Parameters
+        ----------
+        out : str or Path, optional
+            Directory of the page; None: that of the sweep.
+
+        Returns
+        -------
+        Path
+            The file.
+        """
+        return from_above("reports.sweep.write_sweep_page")(self.directory, out=store.named(out)).path
 
     def __repr__(self) -> str:
         done = sum(p.get("status") == DONE for p in self.points)
