@@ -546,7 +546,7 @@ AMONG_OTHERS = [{"OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0", "PMIX
 
 @pytest.mark.parametrize("env", ALONE)
 def test_one_process_of_a_launcher_is_one_process(place, env):
-    command("theory", "state.toml", "--json", "--set", "surface.sites=16", env=env)  # a command of Python, and the program that it starts
+    command("theory", "state.toml", "--json", "--set", "surface.kind=flat", env=env)  # a command of Python, and the program that it starts
     command("check", "-", given=SCENE, env=env, says="nothing wrong")
 
 
