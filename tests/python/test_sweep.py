@@ -653,7 +653,7 @@ def test_jobs_and_executors_that_are_none_are_refused(place):
 def test_points_share_the_processors_unless_somebody_has_chosen(place):
     def threads(directory):
         return asperity.load(f"{directory}/seed=1").run.threads
-    words = ["sweep", "state.toml", "--progress", "off", "--jobs", "2", "--set", "surface.rms=0", "--out"]  # two seeds
+    words = ["sweep", "state.toml", "--progress", "off", "--jobs", "2", "--set", "surface.rms=0.2", "--out"]  # two seeds
     subprocess.run([os.environ["ASPERITY_PROGRAM"], *words, "shared"], check=True, capture_output=True,
                    env={k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"})
     assert threads("shared") == max(1, len(os.sched_getaffinity(0)) // 2)
