@@ -24,43 +24,35 @@ from typing import TYPE_CHECKING
 from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, SceneWarning, Stopped, UnknownName, WrongCall
 
 if TYPE_CHECKING:
+    from .commands.adhesion import Adhesion as Adhesion, adhesion as adhesion
     from .commands.cost import cost as cost
+    from .commands.curve import curve as curve
     from .commands.export import export as export
+    from .commands.stress import stress as stress
     from .commands.theory import theory as theory
-    from .forms import (
-        Adhesion as Adhesion,
-        Curves as Curves,
-        Estimate as Estimate,
-        Result as Result,
-        Stress as Stress,
-        Sweep as Sweep,
-        Tip as Tip,
-        adhesion as adhesion,
-        curve as curve,
-        estimate as estimate,
-        load as load,
-        load_curve as load_curve,
-        load_estimate as load_estimate,
-        load_sweep as load_sweep,
-        load_tip as load_tip,
-        prony as prony,
-        run as run,
-        stress as stress,
-        sweep as sweep,
-        tip as tip,
-    )
+    from .commands.tip import tip as tip
     from .functions import check as check, defaults as defaults, plan as plan, surface as surface
     from .maps.convert import convert as convert
+    from .results.result import Result as Result, load as load
     from .running.engine import Simulation as Simulation, State as State, Statics as Statics
+    from .running.runs import run as run
+    from .studies.curves import Curves as Curves, load_curve as load_curve
+    from .studies.estimate import Estimate as Estimate, load_estimate as load_estimate
+    from .studies.estimates import estimate as estimate
+    from .studies.prony import prony as prony
     from .studies.states import states as states
+    from .studies.stress import Stress as Stress
+    from .studies.sweeps import Sweep as Sweep, load_sweep as load_sweep, sweep as sweep
+    from .studies.tip import Tip as Tip, load_tip as load_tip
 
-_LAZY = {"run": ".forms", "load": ".forms", "sweep": ".forms", "load_sweep": ".forms", "estimate": ".forms", "load_estimate": ".forms",
-         "adhesion": ".forms", "curve": ".forms", "load_curve": ".forms", "Curves": ".forms", "tip": ".forms", "load_tip": ".forms",
-         "stress": ".forms", "Tip": ".forms", "Stress": ".forms", "Result": ".forms", "Sweep": ".forms",
-         "Estimate": ".forms", "Adhesion": ".forms",
+_LAZY = {"run": ".running.runs", "load": ".results.result", "sweep": ".studies.sweeps", "load_sweep": ".studies.sweeps",
+         "estimate": ".studies.estimates", "load_estimate": ".studies.estimate", "adhesion": ".commands.adhesion",
+         "curve": ".commands.curve", "load_curve": ".studies.curves", "Curves": ".studies.curves", "tip": ".commands.tip",
+         "load_tip": ".studies.tip", "stress": ".commands.stress", "Tip": ".studies.tip", "Stress": ".studies.stress",
+         "Result": ".results.result", "Sweep": ".studies.sweeps", "Estimate": ".studies.estimate", "Adhesion": ".commands.adhesion",
          "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states",
          "check": ".functions", "plan": ".functions", "surface": ".functions", "defaults": ".functions", "theory": ".commands.theory",
-         "cost": ".commands.cost", "convert": ".maps.convert", "prony": ".forms", "export": ".commands.export"}
+         "cost": ".commands.cost", "convert": ".maps.convert", "prony": ".studies.prony", "export": ".commands.export"}
 """Where each name is, in the order of the reference."""
 _MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots"), "theories": (".theories.combined", ".theories")}
 """Modules that are there after `import asperity`, each with those that it is to hold."""

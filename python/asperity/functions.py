@@ -15,7 +15,7 @@ from .errors import Named, SceneError
 from .results.frames import data_set
 from .results.result import Values
 from .running import program
-from .running.scene import Overrides, SceneLike, assignments, scene_file
+from .running.scene import Overrides, SceneLike, scene_given
 from .studies.estimates import surface_made
 from .terminal import duration, html_table
 
@@ -106,8 +106,8 @@ def check(scene: SceneLike, overrides: Overrides | None = None) -> Checked:
     SceneError
         The scene has mistakes; the error lists all.
     """
-    with scene_file(scene, overrides=overrides) as file:
-        found = _values(program.check(file, assignments(overrides)))
+    with scene_given(scene, overrides) as (file, sets):
+        found = _values(program.check(file, sets))
         if found["problems"]:
             raise SceneError.of(found["problems"])
     return Checked(found.text("name"), cast("Scene", found["scene"]), found.listed("notes", str), found.number("longest_timestep", 0.0),
@@ -135,8 +135,8 @@ def plan(scene: SceneLike, overrides: Overrides | None = None) -> Planned:
     SceneError
         The scene is refused.
     """
-    with scene_file(scene, overrides=overrides) as file:
-        found = _values(program.plan(file, assignments(overrides)))
+    with scene_given(scene, overrides) as (file, sets):
+        found = _values(program.plan(file, sets))
     return Planned(found.text("name"), found.number("steps", 0.0), found.part("bytes").numbers(), found.part("seconds").numbers(),
                    dict(found.part("effects")), found.listed("notes", str))
 
@@ -162,9 +162,9 @@ def surface(scene: SceneLike, overrides: Overrides | None = None) -> Surface:
     SceneError
         The scene is refused.
     """
-    with scene_file(scene, overrides=overrides) as file:
-        made = surface_made(file, assignments(overrides))
-        keys = Values(program.check(file, assignments(overrides))["scene"])
+    with scene_given(scene, overrides) as (file, sets):
+        made = surface_made(file, sets)
+        keys = Values(program.check(file, sets)["scene"])
         edge = keys.number("surface.sites", 0.0) * keys.number("surface.spacing", 0.0)
     return Surface(made.heights, made.rms, made.slope, made.doubts, edge)
 

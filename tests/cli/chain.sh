@@ -20,7 +20,7 @@ export PATH="$work/bin:$PATH" SLURM_JOB_ID=7 SLURM_NTASKS=2 SLURM_CPUS_PER_TASK=
 cat >scene.toml <<'END'
 surface = { sites = 16, rms = 0.8 }
 block = { thickness = 16 }
-drive = { velocity = 0.6, timestep = 20 } # some seconds: it is stopped on its way
+drive = { velocity = 3, timestep = 20 } # more than a second: it is stopped on its way
 END
 chain() { # CODE REQUEUES WHAT: starts the job, with USR1 as soon as the run records, if it is to stop
     : >calls

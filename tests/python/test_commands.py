@@ -30,6 +30,7 @@ COMMANDS = list(PURPOSES)
 HELPS = {name: say(PROGRAM, name, "--help") for name in COMMANDS}
 FOR_PROGRAMS = {name for name, purpose in PURPOSES.items() if purpose.startswith("for programs:")}
 RUNS_SEVERAL = {name for name in OF_PYTHON if "jobs" in of_package(name).options.about()}
+LONGEST = {"adhesion", "tip"}
 EXIT = "exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard,\n            4 files, 75 stopped early\n"
 SCENE = '[surface]\nsites = 16\nrms = 0.3\n[block]\nthickness = 16\n[drive]\npath = ["relax"]\n'
 PATH = SCENE.replace('["relax"]', '["approach", "pull-off"]\nmode = "quasistatic"')
@@ -134,9 +135,10 @@ def test_json_quiet_and_out(work, light, name):
         inputs = ("s.toml", "map.npy", "map.txt", "curve.csv", "force.csv", ".asperity-files", "run.lock")
         assert all(path == work / out or work / out in path.parents or path.stem == Path(out).stem or path.name in inputs
                    for path in before), before
-    code, said, other = called(name, *words, *(["-o", "q-" + out] if out else []), "--quiet")
+    # Of the studies that take longest the second call goes on where the first has ended.
+    code, said, other = called(name, *words, *(["-o", out if name in LONGEST else "q-" + out] if out else []), "--quiet")
     assert code == 0 and other == "" and "note:" not in said, said + other
-    assert not re.search("written:|going on|begins|points in|runs, about", said), said
+    assert not re.search("written:|going on|begins|points in|runs, (about|of which)", said), said
 
 
 def rows(text):

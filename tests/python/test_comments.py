@@ -212,9 +212,6 @@ def test_a_sentence_is_accepted(text):
 # noun for classes and properties. Functions that users call have the sections Parameters, Returns or Yields of NumPy's style; one of no
 # or one argument that returns no tuple may do with its sentence, as others do. What a function raises itself is named.
 
-HELD_BY_USERS = {"forms": ("_plot_of_sweep", "_report_of_run", "_report_of_sweep", "_plot_of_estimate", "_plot_of_prony", "_quote",
-                           "_report_of_estimate")}
-"""Functions that become members of public classes."""
 IN_DOCSTRINGS = re.compile(r"\b((that|which) (are|is) there\b|in the way\b|side by side\b|as of \w+\(\))", re.I)
 SECTION = re.compile(r"^(\w+)\n-{3,}\n(.*?)(?=^\w+\n-{3,}$|\Z)", re.M | re.S)
 
@@ -223,14 +220,14 @@ def is_property(function):
     return any(re.search(r"property|setter", ast.unparse(decorator)) for decorator in function.decorator_list)
 
 
-def public(body, also=(), inside=""):
+def public(body, inside=""):
     """Every public class, function and method of a module with its name; overloads and setters have their text elsewhere."""
     for node in body:
-        if isinstance(node, (ast.ClassDef, ast.FunctionDef)) and (not node.name.startswith("_") or node.name in also):
+        if isinstance(node, (ast.ClassDef, ast.FunctionDef)) and not node.name.startswith("_"):
             if not re.search(r"overload|setter", " ".join(ast.unparse(d) for d in node.decorator_list)):
                 yield inside + node.name, node
                 if isinstance(node, ast.ClassDef):
-                    yield from public(node.body, (), f"{node.name}.")
+                    yield from public(node.body, f"{node.name}.")
 
 
 def raised_by(function):
@@ -243,13 +240,13 @@ def raised_by(function):
                 yield found[1]
 
 
-def of_users(tree, also=()):
-    """Functions and methods that users call: those whose call is checked, and those that become members of public classes."""
+def of_users(tree):
+    """Functions and methods that users call: those whose call is checked."""
     for node in tree.body:
         checked = "checks_call" in " ".join(ast.unparse(d) for d in getattr(node, "decorator_list", ()))
         if isinstance(node, ast.ClassDef) and checked:
             yield from (child for child in node.body if isinstance(child, ast.FunctionDef))
-        elif checked or getattr(node, "name", "") in also:
+        elif checked:
             yield node
 
 
@@ -289,9 +286,9 @@ def test_docstrings_of_the_package_have_numpy_sections():
     found, functions, sections = [], 0, 0
     for path in sorted((ROOT / "python/asperity").rglob("*.py")):
         module = str(path.relative_to(ROOT / "python/asperity").with_suffix(""))
-        tree, also = ast.parse(path.read_text(encoding="utf-8")), HELD_BY_USERS.get(module, ())
-        users = {*of_users(tree, also)}
-        for name, thing in public(tree.body, also):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        users = {*of_users(tree)}
+        for name, thing in public(tree.body):
             functions += isinstance(thing, ast.FunctionDef)
             sections += "\n---" in (ast.get_docstring(thing) or "")
             found += [f"{module}.py:{thing.lineno} {name} {problem}" for problem in problems_of_docstring(thing, thing in users)]

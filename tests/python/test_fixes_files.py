@@ -249,7 +249,6 @@ GWYDDION = "# Width: 8.32 nm\n# Height: 8.32 nm\n# Value units: Å\n"
 SCAN = {"size": "32 nm", "unit": "Å"}
 WAVES = np.hypot(*np.meshgrid(np.fft.fftfreq(64), np.fft.fftfreq(64)))
 ROUGH = np.fft.ifft2(np.fft.fft2(np.random.default_rng(3).normal(0, 3, (64, 64))) / (1 + (WAVES / 0.05) ** 2)).real
-ATOM = "atom styles are"
 NARROW = ("second.h5", hdf5({"heights": ROUGH}, size_x=30.0, size_y=30.0, unit="nm"))
 # What is said, what reads, the bad input and the good one; a group of what is said stands for {0}
 OF_FILES = [

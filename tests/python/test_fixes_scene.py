@@ -77,7 +77,6 @@ def line_of(r, eV=0.1, d=1.0, end="\n"):
 
 
 ROWS = [1.8 + 0.05 * k for k in range(220)]
-NO_LAMMPS = "index r energy force\n"
 FILES = {
     "good.txt": "".join(line_of(r) for r in ROWS),
     "coarse.txt": "".join(line_of(r) for r in ROWS[::12]),

@@ -4,6 +4,7 @@
 within one. Imports that only type checkers see (if TYPE_CHECKING) count as well."""
 
 import ast
+import importlib
 import re
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from asperity.commands.options import purposes
 
 # From the bottom to the top: a subpackage and its modules from the bottom to the top, or modules of the package itself.
 SUBPACKAGES = {
-    "errors": (), "units": (), "arguments": (), "terminal": (),
+    "above": (), "errors": (), "units": (), "arguments": (), "terminal": (),
     "files": ("store",),
     "results": ("values", "run_file", "frames", "losses", "result"),
     "running": ("scene", "program", "lock", "pool", "runs", "engine"),
@@ -23,7 +24,7 @@ SUBPACKAGES = {
     "plots": ("style", "run", "prony", "tip", "curve", "stress", "sweep"),
     "reports": ("page", "sentences", "export", "stress", "run", "cost", "estimate", "tip", "curve", "sweep"),
     "commands": ("command_line", "options", "studies", *purposes()),
-    "forms": (), "functions": (), "crack": (), "__init__": (), "__main__": (),
+    "functions": (), "crack": (), "__init__": (), "__main__": (),
 }
 ORDER = [name for package, modules in SUBPACKAGES.items()
          for name in ([f"{package}.{module}" for module in ("__init__", *modules)] if modules else [package])]
@@ -63,6 +64,16 @@ def test_imports_from_above_are_seen():
                        ("results.result", "if TYPE_CHECKING:\n    from ..plots.run import RunPlots"),
                        ("results.result", "from ..nowhere import x"), ("errors", "from . import units")):
         assert wrong(text, name), text
+
+
+def test_what_is_imported_late_exists_and_stands_above():
+    root, found = Path(asperity.__file__).parent, 0
+    for file in root.rglob("*.py"):
+        name = str(file.relative_to(root).with_suffix("")).replace("/", ".")
+        for module, member in re.findall(r'from_above\("([\w.]+)\.(\w+)"\)', file.read_text()):
+            assert PLACE[module] > PLACE[name] and hasattr(importlib.import_module(f"asperity.{module}"), member)
+            found += 1
+    assert found >= 8
 
 
 ENGINE = Path(__file__).resolve().parents[2] / "engine"

@@ -546,7 +546,7 @@ AMONG_OTHERS = [{"OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0", "PMIX
 
 @pytest.mark.parametrize("env", ALONE)
 def test_one_process_of_a_launcher_is_one_process(place, env):
-    command("theory", "state.toml", "--json", "--set", "surface.sites=16", env=env)  # a command of Python, and the program that it starts
+    command("theory", "state.toml", "--json", "--set", "surface.kind=flat", env=env)  # a command of Python, and the program that it starts
     command("check", "-", given=SCENE, env=env, says="nothing wrong")
 
 
@@ -653,8 +653,7 @@ def test_jobs_and_executors_that_are_none_are_refused(place):
 def test_points_share_the_processors_unless_somebody_has_chosen(place):
     def threads(directory):
         return asperity.load(f"{directory}/seed=1").run.threads
-    words = ["sweep", "state.toml", "--progress", "off", "--jobs", "2", "--set", "surface.rms=0.2",
-             "--out"]  # two seeds
+    words = ["sweep", "state.toml", "--progress", "off", "--jobs", "2", "--set", "surface.rms=0.2", "--out"]  # two seeds
     subprocess.run([os.environ["ASPERITY_PROGRAM"], *words, "shared"], check=True, capture_output=True,
                    env={k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"})
     assert threads("shared") == max(1, len(os.sched_getaffinity(0)) // 2)
@@ -672,8 +671,7 @@ def test_the_theory_of_a_realised_spectrum_has_all_seeds(place):
     assert len(asperity.sweep(STATE, given, out="target", jobs=2).theory) == 31
 
 
-def test_several_scenes_share_their_plots(place, light):
-    light.undo()
+def test_several_scenes_share_their_plots(place):
     (place / "other.toml").write_text(SCENE.replace("0.2, 0.4", "0.3, 0.5"))
     command("sweep", "state.toml", "other.toml", "--out", "both", "--progress", "off", "--jobs", "2")
     assert {s.name for s in load_sweeps(Path("both"))} == {"state", "other"}

@@ -6,6 +6,7 @@ import json
 import math
 import re
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ import pytest
 import asperity
 from asperity.reports import tip as report_tip
 from asperity.results.result import Values
+from asperity.studies.forecast import Forecast, Size
 from asperity.studies.tip import Contact, _fitted, fold, plan_of
 from asperity.theories.indentation import Indenter, path
 from asperity.theories.sphere import jkr
@@ -94,6 +96,11 @@ def test_a_plan_runs_nothing(tmp_path, monkeypatch):
     code, said, _ = in_this_process(["tip", *soft])
     assert code == 0 and "d jump-in, W lost will not be stated" in " ".join(said.split()) and "times as many sites" in said
     assert not list(tmp_path.rglob("*"))
+
+
+def test_a_time_that_is_not_known_is_said():
+    lines = Forecast("scan", Path("out"), 4, 4, math.nan, sizes=[Size("the tip", 24, 20.0, math.nan)]).lines
+    assert "not known" in lines[0] and "a time that is not known" in lines[1]
 
 
 @pytest.mark.parametrize("name", tips.TIPS)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,7 +19,7 @@ from ..files import store
 from ..running import lock, program
 from ..terminal import Voice
 from .options import SITES, Command, Options as Base, jobs, option, out, plan, word
-from .studies import EARLY, told
+from .studies import EARLY, show_estimate, told
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -226,8 +226,7 @@ def _carry_out(given: Options, voice: Voice) -> int:
     if found is None or outcome.status != DONE:
         voice.show(f"The run of the map failed: {outcome.reason}")
         return outcome.exit_code or PHYSICS
-    voice.show(str(replace(found, notes=[note for note in found.notes if note not in making.said])))
-    voice.tell({**found.json(), "directory": making.place})
+    show_estimate(found, making, voice)
     voice.say(f"in {making.place}: report.html (the estimate), scene/report.html (the run), estimate.json, estimate.png")
     return 0
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from ..arguments import checks_call
 from ..errors import BY_CODE, InternalError, Stopped
 from ..running import lock, program
-from ..running.scene import Overrides, SceneLike, assignments, scene_file
+from ..running.scene import Overrides, SceneLike, scene_given
 from ..terminal import Voice
 from .options import Command, OfScene, executor, jobs, option, out, plan
 from .studies import EARLY, on_workers, told
@@ -77,8 +77,8 @@ def cost(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Pat
 
     program.refuse_ranks()
     refuse_jobs(jobs)
-    with scene_file(scene, overrides=overrides) as file:
-        costing = Costing(file, assignments(overrides), None if out is None else str(out), PoolOptions(jobs, 1, progress="off"), parameters,
+    with scene_given(scene, overrides) as (file, sets):
+        costing = Costing(file, sets, None if out is None else str(out), PoolOptions(jobs, 1, progress="off"), parameters,
                           None if target is None else target_of(str(target)), lambda _: None, report_cost.FILES)
         with lock.in_use(costing.place):
             complete = costing.carry_out()

@@ -4,11 +4,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from ..terminal import Voice
 from .options import COUNT, Command, OfScene, jobs, option, out, plan
-from .studies import EARLY, told
+from .studies import EARLY, show_estimate, told
 
 
 @dataclass(kw_only=True)
@@ -43,8 +43,7 @@ def _carry_out(given: Options, voice: Voice) -> int:
     if not complete or found is None:
         voice.show(EARLY)
         return STOPPED
-    voice.show(str(replace(found, notes=[note for note in found.notes if note not in making.said])))
-    voice.tell({**found.json(), "directory": making.place})
+    show_estimate(found, making, voice)
     voice.say(f"in {making.place}: {', '.join(written)}")
     return 0
 

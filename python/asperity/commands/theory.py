@@ -16,7 +16,7 @@ from ..arguments import checks_call
 from ..errors import Named, SceneError
 from ..files import store
 from ..running import lock, program
-from ..running.scene import Overrides, SceneLike, assignments, inputs_of, scene_file
+from ..running.scene import Overrides, SceneLike, inputs_of, scene_given
 from .options import Command, OfScene, option, out
 
 if TYPE_CHECKING:
@@ -219,8 +219,8 @@ def theory(scene: SceneLike, overrides: Overrides | None = None) -> TheoryOfScen
     SceneError
         The scene is refused.
     """
-    with scene_file(scene, overrides=overrides) as file:
-        found = computed(file, assignments(overrides))
+    with scene_given(scene, overrides) as given:
+        found = computed(*given)
     return TheoryOfScene(found.values.text("name"), cast("Theory", found.values.part("theory")), found.values.number("delta_gamma", 0.0),
                          found.notes, found.text)
 

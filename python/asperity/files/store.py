@@ -404,6 +404,11 @@ def chosen(out: str | None, otherwise: str) -> Path:
     return place
 
 
+def named(out: str | os.PathLike | None) -> Path | None:
+    """Returns the directory that a user names; None if none is named. Raises SceneError if it can be none."""
+    return None if out is None else chosen(os.fspath(out), "")
+
+
 def numbered(first: Path, taken: Callable[[Path], bool]) -> Path:
     """Returns the first path that is not taken of first, first-2, first-3, ..."""
     others = (first.with_name(f"{first.stem}-{number}{first.suffix}") for number in itertools.count(2))

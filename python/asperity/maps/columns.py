@@ -36,6 +36,12 @@ def is_row(line: str) -> bool:
     return bool(re.match(r"""["']?[-+]?[.,]?\d""", line.strip()))
 
 
+def rows_of(lines: list[str]) -> tuple[int | None, list[str]]:
+    """Returns the index of the first line that begins with a number (None: no line does), and all lines that do."""
+    rows = [k for k, line in enumerate(lines) if is_row(line)]
+    return rows[0] if rows else None, [lines[k] for k in rows]
+
+
 def separator_of(path: Path, rows: list[str], wanted: int) -> tuple[str | None, bool]:
     """Returns what separates the cells (None: blanks), and True if commas are decimal points. wanted: number of names; 0:
     unknown."""

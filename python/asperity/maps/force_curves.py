@@ -22,7 +22,7 @@ import numpy as np
 from ..errors import InputOutputError, to_install
 from ..units import conversion, quantity
 from .channels import refuse
-from .columns import cells_of, is_row, lines_of, numbers_of, separator_of
+from .columns import cells_of, lines_of, numbers_of, rows_of, separator_of
 
 FEWEST = 20
 """Points of a direction."""
@@ -86,8 +86,7 @@ def _sensitivity(text: str) -> float | None:
 def _of_text(path: Path, given: Mapping[str, float]) -> list[ForceCurve] | None:
     """Returns the curve of a text of columns; None if no line names them."""
     lines = lines_of(path)
-    first = next((k for k, line in enumerate(lines) if is_row(line)), None)
-    rows = [] if first is None else [line for line in lines[first:] if is_row(line)]
+    first, rows = rows_of(lines)
     if first is None or len(rows) < 2 or first == 0:
         return None
     separator, decimal = separator_of(path, rows, 0)

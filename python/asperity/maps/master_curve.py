@@ -18,7 +18,7 @@ import numpy as np
 
 from ..units import conversion
 from .channels import refuse
-from .columns import COMMENTS, cells_of, is_row, lines_of, numbers_of, separator_of
+from .columns import COMMENTS, cells_of, lines_of, numbers_of, rows_of, separator_of
 
 FEWEST_POINTS = 6
 FALL = 0.1
@@ -142,10 +142,9 @@ def read_master_curve(source: str | Path, frequency_unit: str = "", modulus_unit
     """Reads a master curve. Raises InputOutputError."""
     path = Path(source)
     lines = lines_of(path)
-    first = next((k for k, line in enumerate(lines) if is_row(line)), None)
+    first, rows = rows_of(lines)
     if first is None:
         raise refuse(path, "is no master curve", "no line begins with a number", "give a text of columns: frequency, E', E''")
-    rows = [line for line in lines[first:] if is_row(line)]
     separator, decimal = separator_of(path, rows, len(_header(lines, first, ",")))
     columns = _header(lines, first, separator)
     if not columns and len(cells_of(rows[0], separator) if separator else rows[0].split()) == 3:

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..studies.prony import Prony
-from .style import BLUE, RED, curve, finish
+from .style import BLUE, RED, curve, drawn_into, finish
 
 
 def moduli(found: Prony, ax: Axes) -> bool:
@@ -20,3 +20,8 @@ def moduli(found: Prony, ax: Axes) -> bool:
         curve(ax, found.frequency, 1e3 * measured, words, colour=colour, line="", marker=marker, filled=False)
         curve(ax, over, line, f"{len(found.prony)} branches", colour=colour)
     return finish(ax, "angular frequency $ω$ (rad/s)", "modulus (MPa)", log="xy")
+
+
+def draw(found: Prony, ax: Axes | None) -> Axes:
+    """Draws moduli() into axes, new ones by default. Raises InputOutputError."""
+    return drawn_into(ax, lambda a: moduli(found, a), found.source, "moduli", "it has no branches")

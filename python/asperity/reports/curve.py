@@ -13,7 +13,7 @@ from .. import terminal
 from ..files import store
 from ..plots.curve import histogram, over_places, residuals, with_fit, with_simulation
 from ..studies.curves import FIT, POINTS, RESULT, Curves, FittedCurve, missed, points_of
-from ..studies.stated_number import Number, finite, lines_of, rounded, saved
+from ..studies.stated_number import ROW, finite, lines_of, rounded, saved
 from .page import Page, page_files
 
 TABLE = "curves.csv"
@@ -25,12 +25,6 @@ NAMES = {"hertz": "Hertz", "jkr": "JKR", "dmt": "DMT", "maugis": "Maugis and Dug
 def _model(name: str) -> str:
     kind, _, parameter = name.partition(" ")
     return NAMES[kind] + f", λ = {parameter}" * bool(parameter)
-
-
-def _cells(n: Number) -> list[str]:
-    value, error = n.cells
-    parts = "; ".join(f"{name} {rounded(0.0, found.error)[1]}" for name, found in n.parts.items())
-    return [n.symbol.replace("_", " "), value, error, n.unit, n.reason or parts]
 
 
 HEADS = ["direction", "model", "w, mJ/m²", "E*, GPa", "contact at, nm", "-2 ln L"]
@@ -81,11 +75,11 @@ def _simulated(found: Curves) -> str:
 
 def text_of(found: Curves) -> str:
     """Returns what the terminal shows: numbers, lines to quote, and the models of the first curve."""
-    rows = [_cells(n)[:4] for n in found.numbers]
+    rows = [n.row[:4] for n in found.numbers]
     one = found.curves[0]
     first = f"{one.name}:" if len(found.curves) > 1 else ""
     table = terminal.table(HEADS, models(one, short=True), left=(0, 1))
-    return "\n".join([terminal.table(["number", "value", "error", "unit"], rows), "", *lines_of(found.numbers), "", *([first] if first else []),
+    return "\n".join([terminal.table(ROW[:4], rows), "", *lines_of(found.numbers), "", *([first] if first else []),
                       table, "", _apart(one), *(("", _simulated(found)) if found.simulated else ())])
 
 
@@ -120,7 +114,7 @@ def write(found: Curves) -> Path:
     title = f"{Path(found.file).name}: {len(found.curves)} force curve{'s' * (len(found.curves) != 1)}"
     page = Page(found.directory, "asperity curve", title, lead, kinds=("png",))
     page.section("numbers", "Numbers")
-    page.table(["number", "value", "error", "unit", "parts of the error, or why it is not stated"], [_cells(n) for n in found.numbers])
+    page.table(ROW, [n.row for n in found.numbers])
     page.add("paragraph", f"Tip: {tip.shape}, {size}; cantilever {one.measured.stiffness:.4g} N/m. E* = E/(1-ν²). Errors are one standard error.")
     page.section("curve", "Curve and fit" if len(found.curves) == 1 else f"Curve and fit: {one.name}")
     page.figure(FIGURES[0], "Force curve", "Less its baseline; the lines are the stated models where they are fitted.", partial(with_fit, one))

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from ..files import store
 from ..plots import style as figures
-from ..plots.style import BLUE, INK, Curve, drawn, finish
+from ..plots.style import BLUE, INK, Curve, drawn, drawn_into, finish
 from ..results.result import Values
 from ..studies.estimate import Estimate, heads_of, left_out, names_of, rows_of, tables_of
 from ..studies.stated_number import Found, lines_of, quote
@@ -43,13 +43,18 @@ def chart(estimate: Estimate, ax: Axes) -> bool:
     return True
 
 
+def draw(estimate: Estimate, ax: Axes | None) -> Axes:
+    """Draws chart() into axes, new ones by default. Raises InputOutputError."""
+    return drawn_into(ax, lambda a: chart(estimate, a), estimate.name, "estimate", "it has no number")
+
+
 def _set(text: str) -> str:
     """Spells symbols as a page sets them: γ_{eff}."""
     return re.sub(r"_(\w+)", r"_{\1}", text)
 
 
-def page_of(estimate: Estimate, out: Path | None = None) -> Page:
-    """Makes the page of an estimate, which its write() writes."""
+def write_estimate_page(estimate: Estimate, out: Path | None = None) -> Page:
+    """Writes DIR/report.html of an estimate."""
     page = Page(out or estimate.directory, "Asperity estimate", estimate.name, _set(quote(estimate.first)) + ".")
     page.section("numbers", "Numbers")
     for line in lines_of([n for n in estimate.numbers.values() if n is not estimate.first]):
@@ -66,6 +71,7 @@ def page_of(estimate: Estimate, out: Path | None = None) -> Page:
     page.add("lists", estimate.notes and [("", estimate.notes)])
     end(page, Values({"run": estimate.run}), "The scene", estimate.scene, "Every key with the value that was used; the runs of the error vary one at "
         "a time.")
+    page.write()
     return page
 
 
@@ -79,5 +85,5 @@ def write(estimate: Estimate) -> list[str]:
     if fig is not None:
         with store.outputs(estimate.directory, figures.files_of("estimate", ("png",))) as out:
             figures.save(fig, out, "estimate", ("png",))
-    page_of(estimate).write()
+    write_estimate_page(estimate)
     return ["estimate.json", *["estimate.png"] * (fig is not None), "report.html"]

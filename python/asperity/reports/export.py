@@ -306,7 +306,7 @@ def export(directory: Path, kind: str, out: str | None = None) -> list[Path]:
     if kind not in FORMATS:
         raise UnknownName(f"--to {kind}", "is no format of export", "formats: " + ", ".join(FORMATS),
                          f"for example: asperity export {directory} --to xyz")
-    written = FORMATS[kind](Export(directory, None if out is None else store.chosen(out, "")))
+    written = FORMATS[kind](Export(directory, store.named(out)))
     if not written:
         raise InputOutputError(str(directory / "run.h5"), "has nothing to export",
                                "it holds neither maps of a state nor a trajectory",

@@ -29,7 +29,7 @@ from ..studies.grid import is_seed, shown
 from ..studies.sweeps import Sweep, load_sweeps
 from ..studies.tables import Table, text_of
 from ..terminal import minus, number
-from .estimate import page_of
+from .estimate import write_estimate_page
 from .page import Page, file_name, page_files
 from .run import end, run_page_files, write_run_page
 from .sentences import KeyNumber
@@ -260,16 +260,14 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS, out: Path 
 
 def write_page(directory: Path, kinds: tuple[str, ...] = KINDS, out: str | None = None) -> Page:
     """Writes DIR/report.html of a directory with an estimate, a sweep, sweeps of several scenes, or a run. Raises InputOutputError, SceneError."""
-    place = None if out is None else store.chosen(out, "")
+    place = store.named(out)
     own = kinds_in(directory)
     below = results_below(directory) if directory.is_dir() and not own else {}
     if len(own) > 1:
         raise SceneError(str(directory), f"holds {len(own)} results: " + " and ".join(RESULTS[file] for file in own),
                          f"{', '.join(own)} are in it, and a page is of one", "move the others to directories of their own")
     if own == [RESULT]:
-        page = page_of(load_estimate(directory), place)
-        page.write()
-        return page
+        return write_estimate_page(load_estimate(directory), place)
     if own == ["sweep.json"] or below and all(files == ["sweep.json"] for files in below.values()):
         return write_sweep_page(directory, kinds, place)
     runs = {**below, **(results_below(directory) if own and own != ["result.json"] else {})}

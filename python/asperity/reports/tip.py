@@ -15,7 +15,7 @@ from .. import terminal
 from ..files import store
 from ..plots.run import map_of
 from ..plots.tip import force_curve, indentation
-from ..studies.stated_number import Number, finite, lines_of, rounded, saved
+from ..studies.stated_number import ROW, finite, lines_of, rounded, saved
 from ..studies.tip import CURVE, RESULT, RUN_OF, Tip
 from ..theories.yielding import EPSILON, UPPER, YieldingSphere
 from .page import Page, page_files
@@ -32,16 +32,6 @@ STATE = "relaxed"
 def _set(text: str) -> str:
     """Returns a text with the subscripts of its symbols as a page sets them."""
     return re.sub(r"_([\w-]+)", r"_{\1}", text)
-
-
-def _plain(symbol: str) -> str:
-    return symbol.replace("_", " ")
-
-
-def _cells(n: Number) -> list[str]:
-    value, error = n.cells
-    parts = "; ".join(f"{name} {rounded(0.0, found.error)[1]}" for name, found in n.parts.items())
-    return [_plain(n.symbol), value, error, n.unit, n.reason or parts]
 
 
 OVER = "pull-off over 1.5πR"
@@ -91,7 +81,7 @@ def _theory(found: Tip) -> str:
 
 def text_of(found: Tip) -> str:
     """Returns what the terminal shows."""
-    rows = [[cells[0], cells[1], cells[2], cells[3]] for cells in map(_cells, found.numbers)]
+    rows = [n.row[:4] for n in found.numbers]
     head, *compared = _compared(found)
     return "\n".join([terminal.table(["tip", "value", "error", "unit"], rows), "", *lines_of(found.numbers), "",
                       terminal.table(head, compared), "", _fit(found), "", _theory(found)])
@@ -143,7 +133,7 @@ def write(found: Tip) -> Path:
         if STATE in found.result.fields:
             page.figure(name, heading, "From above, in the middle of the box.", partial(map_of, found.result, found.result.fields[STATE], name))
     page.section("numbers", "Numbers")
-    page.table(["number", "value", "error", "unit", "parts of the error, or why it is not stated"], [_cells(n) for n in found.numbers])
+    page.table(ROW, [n.row for n in found.numbers])
     page.add("lists", [("Symbols", [_set(f"{n.symbol}: {n.name}") for n in found.numbers])])
     page.section("quote", "To quote")
     for line in lines_of(found.numbers):

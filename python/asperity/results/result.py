@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from ..above import from_above
 from ..arguments import checks_call, checks_calls
 from ..errors import InputOutputError, meant
 from ..files import store
@@ -311,9 +312,6 @@ class Result(Values, Numbers):
 
     if TYPE_CHECKING:
         scene: Scene
-        @property
-        def plot(self) -> Plots: ...
-        def report(self, out: str | os.PathLike | None = None) -> Path: ...
 
     def __init__(self, directory: str | os.PathLike):
         self.directory = Path(directory)
@@ -447,6 +445,30 @@ class Result(Values, Numbers):
             what = f"rms {rms:.4g} Å" if rms > 0 else "smooth"
         radius = f", R = {self.radius:.4g} Å" if self.radius else ""
         return f"{name}: {what}, {sites:.0f} × {sites:.0f}{radius}"
+
+    @property
+    def plot(self) -> Plots:
+        """Plots of the run: result.plot.separation(ax), .energy, .map("gap"), ..."""
+        return from_above("plots.run.RunPlots")(self)
+
+    def report(self, out: str | os.PathLike | None = None) -> Path:
+        """Writes report.html into a directory.
+
+        Parameters
+        ----------
+        out : str or Path, optional
+            Directory of the page; None: that of the run.
+
+        Returns
+        -------
+        Path
+            The file.
+        """
+        return from_above("reports.run.write_run_page")(self, out=store.named(out)).path
+
+    def _repr_html_(self) -> str:
+        rows = [(n.name, f"{n.value} {n.unit}".strip(), n.note) for n in from_above("reports.sentences.key_numbers")(self)]
+        return html_table(self.title, (), rows, self.failure_text or ("stopped early: " + self.stopped if self.stopped else ""))
 
     def __repr__(self) -> str:
         found = ", ".join(f"{k}={v:.4g}" for k in ("binding_energy", "contact_fraction", "delta_gamma")

@@ -26,7 +26,7 @@ from ..files import store
 from ..terminal import Progress, number, sleep_soon
 from ..units import GIGAPASCAL
 from . import lock, program
-from .scene import Overrides, SceneLike, assignments, scene_file
+from .scene import Overrides, SceneLike, scene_given
 
 NAME = "asperity._engine"
 
@@ -249,8 +249,8 @@ class Simulation(_engine.Simulation):
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None, comm: Any = None):
         """Places a scene at the start of its path."""
         try:
-            with scene_file(scene, overrides=overrides) as file:
-                super().__init__(file, assignments(overrides), _number(comm))
+            with scene_given(scene, overrides) as (file, sets):
+                super().__init__(file, sets, _number(comm))
         except BaseException:
             del self  # or a debugger would look into what the engine has not made
             raise
@@ -544,8 +544,8 @@ class Statics(_engine.Statics):
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None):
         """Places the solids of a scene beyond the interaction range."""
         try:
-            with scene_file(scene, overrides=overrides) as file:
-                super().__init__(file, assignments(overrides))
+            with scene_given(scene, overrides) as given:
+                super().__init__(*given)
         except BaseException:
             del self
             raise

@@ -18,7 +18,7 @@ from ..files import store
 from ..results.result import Result
 from ..terminal import progress_shown, sleep_soon
 from . import program
-from .scene import Overrides, SceneLike, assignments, scene_file
+from .scene import Overrides, SceneLike, scene_given
 
 
 def launcher(ranks: int) -> list[str]:
@@ -74,11 +74,11 @@ def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Path
     program.refuse_ranks()
     if isinstance(ranks, bool) or not isinstance(ranks, Integral) or ranks < 1:
         raise SceneError(f"ranks = {ranks!r}", "is no number of ranks", "a run has one or more", "leave it out for one")
-    with scene_file(scene, overrides=overrides) as file:
+    with scene_given(scene, overrides) as (file, sets):
         first = Path("results") / Path(file).stem
         place = store.numbered(first, Path.exists) if out is None else store.chosen(str(out), "")
         words = [*launcher(ranks), program.path(), "run", file, "--out", str(place), "--progress", "json",
-                 *program.sets(assignments(overrides))]
+                 *program.sets(sets)]
         environment = dict(os.environ)
         sleep_soon(environment)
         said, shown = [], progress_shown(progress)

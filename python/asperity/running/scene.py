@@ -103,11 +103,11 @@ def _caller() -> str:
 
 
 @contextlib.contextmanager
-def scene_file(scene: SceneLike, folder: str = "", overrides: Overrides | None = None) -> Iterator[str]:
-    """Yields the file of a scene; for a dictionary a temporary one, named by its entry "name"."""
+def scene_given(scene: SceneLike, overrides: Overrides | None) -> Iterator[tuple[str, list[str]]]:
+    """Yields the file of a scene and its overrides as "key=value". Errors name the line of the script in place of --set."""
     try:
-        with _file_of(scene, folder) as file:
-            yield file
+        with scene_file(scene) as file:
+            yield file, assignments(overrides)
     except Error as error:
         if overrides:
             caller = _caller()
@@ -116,7 +116,8 @@ def scene_file(scene: SceneLike, folder: str = "", overrides: Overrides | None =
 
 
 @contextlib.contextmanager
-def _file_of(scene: SceneLike, folder: str) -> Iterator[str]:
+def scene_file(scene: SceneLike, folder: str = "") -> Iterator[str]:
+    """Yields the file of a scene; for a dictionary a temporary one, named by its entry "name". Raises SceneError for anything else."""
     piped = str(scene) == STANDARD_INPUT
     if isinstance(scene, Mapping):
         name, text = scene.get("name", "scene"), toml_of({key: value for key, value in scene.items() if key != "name"})

@@ -76,6 +76,11 @@ class Regions(NamedTuple):
     dip: float
     jump: Jump | None
 
+    @property
+    def above_line(self) -> np.ndarray:
+        """Forces less the line through the far part, nN."""
+        return self.force - self.line[0] - self.line[1] * self.height
+
 
 @dataclass
 class Fit:
@@ -171,7 +176,7 @@ def regions(height: np.ndarray, force: np.ndarray, retracting: bool = True) -> R
 
 def _start(indenter: Indenter, model: str, found: Regions, stiffness: float) -> tuple[float, float, float]:
     """Returns E*, w and the contact point near which a fit begins."""
-    left = found.force - found.line[0] - found.line[1] * found.height
+    left = found.above_line
     near = found.contact
     top, bottom = int(np.argmax(np.where(near, left, -np.inf))), int(np.flatnonzero(near)[0])
     most = float(left[top])
@@ -209,7 +214,7 @@ class _Problem:
         self.used = found.free | found.contact if self.adhesive or found.dip else np.ones(len(found.height), bool)
         self.middle, self.span = float(found.height.mean()), float(np.ptp(found.height))
         line = found.line[0] + found.line[1] * self.middle, found.line[1]
-        left = found.force - found.line[0] - found.line[1] * found.height
+        left = found.above_line
         self.most = float(left.max())
         depth = max(self.most / stiffness * 1e-3, 1e-2 * abs(float(np.ptp(found.height[found.contact]))))
         self.names = ["modulus", "contact", "offset", "tilt"]

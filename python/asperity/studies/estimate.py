@@ -11,8 +11,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import terminal
+from ..above import from_above
 from ..arguments import checks_call, checks_calls
 from ..errors import InputOutputError, Named, UnknownName
+from ..files import store
 from ..results.result import Values, read_json
 from ..units import shown
 from .estimate_parts import GROUPS
@@ -35,10 +37,6 @@ def left_out(scene: Values) -> list[str]:
 class Estimate(Named):
     """Numbers of a scene with their errors. numbers: by their names in result.json, the most important first; parts: parts of the
     error in order, with name, group, what was varied (or the reason why nothing was) and failed; notes."""
-
-    if TYPE_CHECKING:
-        def plot(self, ax: Axes | None = None) -> Axes: ...
-        def report(self, out: str | os.PathLike | None = None) -> Path: ...
 
     name: str
     numbers: dict[str, Number]
@@ -89,6 +87,36 @@ class Estimate(Named):
             Sentence with the number, mJ/m² and meV/Å² for energies per area.
         """
         return quote(self.number(path))
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws the shifts of the first number and their errors, as bars.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+            Axes to draw into; by default new ones.
+
+        Returns
+        -------
+        Axes
+            The axes with the plot.
+        """
+        return from_above("reports.estimate.draw")(self, ax)
+
+    def report(self, out: str | os.PathLike | None = None) -> Path:
+        """Writes report.html into a directory.
+
+        Parameters
+        ----------
+        out : str or Path, optional
+            Directory of the page; None: that of the estimate.
+
+        Returns
+        -------
+        Path
+            The file.
+        """
+        return from_above("reports.estimate.write_estimate_page")(self, store.named(out)).path
 
     @property
     def unseen(self) -> list[str]:

@@ -27,7 +27,7 @@ from ..maps import height_map, missing_waves
 from ..results.result import Values
 from ..running import lock, program
 from ..running.pool import DONE, PoolOptions, refuse_jobs, require_free_runs
-from ..running.scene import Overrides, SceneLike, assignments, file_beside, inputs_of, scene_file, toml_of
+from ..running.scene import Overrides, SceneLike, file_beside, inputs_of, scene_file, scene_given, toml_of
 from ..units import GIGAPASCAL
 from .estimate import RESULT, Estimate
 from .estimate_parts import Part, Plan, SpacingAlso, edges, finer, places, plan_of, stated
@@ -377,9 +377,9 @@ def estimate(scene: SceneLike, overrides: Overrides | None = None, out: str | os
     """
     program.refuse_ranks()
     refuse_jobs(jobs)
-    with scene_file(scene) as file:
+    with scene_given(scene, overrides) as (file, sets):
         said: list[str] = []
-        making = Estimating(file, assignments(overrides), None if out is None else str(out),
+        making = Estimating(file, sets, None if out is None else str(out),
                             PoolOptions(jobs=jobs, progress="off"), seeds, parts, say=said.append)
         making.warn()
         with lock.in_use(making.place):

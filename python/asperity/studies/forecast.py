@@ -58,7 +58,8 @@ class Forecast:
     @property
     def lines(self) -> list[str]:
         """The forecast and, in a line each, what will not be stated."""
-        rows = [[one.run, str(one.sites), f"{one.width:.4g}", duration(one.seconds)] for one in self.sizes]
+        rows = [[one.run, str(one.sites), f"{one.width:.4g}", "not known" if math.isnan(one.seconds) else duration(one.seconds)]
+                for one in self.sizes]
         sizes = [table(["run", "sites", "width, nm", "about"], rows)] if rows else []
         errors = [f"expected error of the {name.replace('pull_off', 'pull-off').replace('_', ' ')}: about {100 * error:.2g} %"
                   for name, error in self.expected.items()]

@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.optimize import least_squares, nnls
 
+from ..above import from_above
 from ..arguments import checks_call, chosen, spoken
 from ..errors import SceneError
 from ..files import store
@@ -59,9 +60,6 @@ LOSSLESS = 0.02
 class Prony:
     """Branches of a viscoelastic block that were fitted to a master curve."""
 
-    if TYPE_CHECKING:
-        def plot(self, ax: Axes | None = None) -> Axes: ...
-
     young: float
     young_range: tuple[float, float]
     stated: bool
@@ -81,6 +79,11 @@ class Prony:
     def modulus(self, frequency: float | np.ndarray) -> np.ndarray:
         """Returns the fitted modulus."""
         return self.young * viscoelastic.modulus(self.prony, 1e-12 * np.asarray(frequency, float))
+
+    @checks_call
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws storage and loss modulus over frequency, measured and fitted."""
+        return from_above("plots.prony.draw")(self, ax)
 
     @property
     def scene(self) -> dict[str, dict]:

@@ -31,6 +31,10 @@ class Found(NamedTuple):
     error: float
 
 
+ROW = ["number", "value", "error", "unit", "parts of the error, or why it is not stated"]
+"""Heads of Number.row."""
+
+
 @dataclass
 class Number(Named):
     """A number of the scene: value as it is run, estimate with the biases corrected, its standard error, and the shift
@@ -141,6 +145,12 @@ class Number(Named):
         if self.below == self.below:
             return (("> " if self.most == 0.0 else "< ") + upwards(1.0, math.copysign(self.below, -0.5 if self.most == 0.0 else 0.5)), "")
         return rounded(self.estimate, self.error)
+
+    @property
+    def row(self) -> list[str]:
+        """Cells of the number under ROW."""
+        parts = "; ".join(f"{name} {rounded(0.0, found.error)[1]}" for name, found in self.parts.items())
+        return [self.symbol.replace("_", " "), *self.cells, self.unit, self.reason or parts]
 
 
 def cut(value: float, error: float, least: float, most: float) -> tuple[float, float]:

@@ -330,7 +330,7 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
     program.refuse_ranks()
     if starts < 0:
         raise SceneError(f"starts = {starts}", "is no number of starts", "", "take 0 or more")
-    place = None if out is None else store.chosen(os.fspath(out), "")
+    place = store.named(out)
     written: store.Outputs | None = None
     with contextlib.ExitStack() as stack:
         if place:

@@ -25,6 +25,7 @@ import h5py
 import numpy as np
 
 from .. import terminal
+from ..above import from_above
 from ..arguments import checks_call, checks_calls
 from ..errors import Error, InputOutputError, Named, SceneError
 from ..files import store
@@ -71,10 +72,6 @@ class Sweep(Named):
     directory : Path
         Directory of the sweep.
     """
-
-    if TYPE_CHECKING:
-        def plot(self, name: str = "gamma", ax: Axes | None = None) -> Axes: ...
-        def report(self, out: str | os.PathLike | None = None) -> Path: ...
 
     name: str
     scene: dict[str, Any]
@@ -199,9 +196,37 @@ class Sweep(Named):
             lines.append(f"  (every {stride}th of {len(rows)} lines; all are in the files)")
         return "\n".join(lines)
 
-    def print_table(self) -> None:
-        """Prints text()."""
-        print(self.text())
+    def plot(self, name: str = "gamma", ax: Axes | None = None) -> Axes:
+        """Draws a plot over the swept key.
+
+        Parameters
+        ----------
+        name : str
+            "gamma", "area", "separation", "radius", "pull-off", "friction", "sliding-area" or "hysteresis".
+        ax : matplotlib Axes, optional
+            Axes to draw into; by default new ones.
+
+        Returns
+        -------
+        Axes
+            The axes with the plot.
+        """
+        return from_above("plots.sweep.draw")([self], name, ax)
+
+    def report(self, out: str | os.PathLike | None = None) -> Path:
+        """Writes report.html into a directory.
+
+        Parameters
+        ----------
+        out : str or Path, optional
+            Directory of the page; None: that of the sweep.
+
+        Returns
+        -------
+        Path
+            The file.
+        """
+        return from_above("reports.sweep.write_sweep_page")(self.directory, out=store.named(out)).path
 
     def __repr__(self) -> str:
         done = sum(p.get("status") == DONE for p in self.points)
@@ -420,16 +445,31 @@ def _directory(asked: str | None, name: str, theory_only: bool, say: Callable[[s
     return free
 
 
+def _checked(scenes: list[str], sets: list[str]) -> dict[str, tuple[str, dict[str, Any]]]:
+    """Returns files of scenes and the answers of the program to them, by the names of the scenes. Raises SceneError for two of one name."""
+    axes, fixed = axes_of(sets, [])
+    answers = [program.check(file, fixed + points_of(axes)[0]) for file in scenes]
+    found: dict[str, tuple[str, dict[str, Any]]] = {}
+    for file, answer in zip(scenes, answers):
+        if answer["name"] in found:
+            raise SceneError(file, "has the name of another scene of the sweep",
+                             "the points of a scene go to a folder of its name", "rename one of the files")
+        found[answer["name"]] = file, answer
+    return found
+
+
+def _place_of(name: str, place: Path, scenes: Mapping[str, Any]) -> Path:
+    """Returns the directory of a scene's points: that of the sweep, or a folder in it for each of several scenes."""
+    return place / name if len(scenes) > 1 else place
+
+
 def forecast(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions,
              say: Callable[[str], None]) -> Forecast:
     """Returns the runs of sweeps that are left, and their time. Raises SceneError."""
-    axes, fixed = axes_of(sets, [])
-    found = {file: program.check(file, fixed + points_of(axes)[0]) for file in scenes}
-    name = "+".join(found[file]["name"] for file in scenes)
+    found = _checked(scenes, sets)
+    name = "+".join(found)
     place = _directory(out, name, theory_only, say)
-    several = len(scenes) > 1
-    prepared = [_prepare(file, found[file], sets, place / found[file]["name"] if several else place, "", theory_only, say)
-                for file in scenes]
+    prepared = [_prepare(file, answer, sets, _place_of(one, place, found), "", theory_only, say) for one, (file, answer) in found.items()]
     for note in dict.fromkeys(note for sweep, _ in prepared for note in sweep.notes):
         say(f"note: {note}")
     jobs = [job for _, some in prepared for job in some]
@@ -444,25 +484,18 @@ class Carried:
     def __init__(self, scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions,
                  say: Callable[[str], None], also: Iterable[str] = ()):
         """Prepares the points of the scenes. also: names of files that the caller will write."""
-        axes, fixed = axes_of(sets, [])
-        found = {file: program.check(file, fixed + points_of(axes)[0]) for file in scenes}
-        names = [found[file]["name"] for file in scenes]
-        for i, file in enumerate(scenes):
-            if names[i] in names[:i]:
-                raise SceneError(file, "has the name of another scene of the sweep",
-                                 "the points of a scene go to a folder of its name", "rename one of the files")
-        several = len(scenes) > 1
-        self.place = _directory(out, "+".join(names), theory_only, say)
+        found = _checked(scenes, sets)
+        self.place = _directory(out, "+".join(found), theory_only, say)
         self.start, self.written = time.monotonic(), 0.0
-        inputs = [one for file in scenes for one in inputs_of(file, found[file]["scene"])]
-        places = [self.place / name if several else self.place for name in names]
+        inputs = [one for file, answer in found.values() for one in inputs_of(file, answer["scene"])]
+        places = [_place_of(name, self.place, found) for name in found]
         with contextlib.ExitStack() as stack:
             stack.enter_context(lock.in_use(self.place))
             tables = {place: [*TABLE_FILES, *also] for place in (self.place, *places)}
             store.require_free(tables, renew=not theory_only, inputs=inputs)
             self.outputs = [stack.enter_context(store.outputs(place, TABLE_FILES)) for place in places]
-            prepared = [_prepare(file, found[file], sets, self.place / name if several else self.place,
-                                 f"{name}/" * several, theory_only, say) for file, name in zip(scenes, names)]
+            prepared = [_prepare(file, answer, sets, place, f"{name}/" * (len(found) > 1), theory_only, say)
+                        for place, (name, (file, answer)) in zip(places, found.items())]
             self.sweeps = [sweep for sweep, _ in prepared]
             self.counts = [len(jobs) for _, jobs in prepared]  # the last points of each sweep
             self.jobs = [job for _, jobs in prepared for job in jobs]

@@ -109,11 +109,6 @@ def maugis_parameter(radius: float, modulus: float, work: float, range: float) -
     return 2 * work / range * float(np.cbrt(radius / (math.pi * work * (4 * modulus / 3) ** 2)))
 
 
-def range_of(radius: float, modulus: float, work: float, parameter: float) -> float:
-    """Returns the range work/stress of the attraction of a sphere with Maugis' parameter λ, nm."""
-    return maugis_parameter(radius, modulus, work, 1.0) / parameter
-
-
 def path(indenter: Indenter, model: str, modulus: float, work: float, most: float, parameter: float = math.inf) -> Path:
     """Computes the states of an indenter.
 

@@ -27,6 +27,8 @@ MEAN_SUM = -3.900264920001956  # φ0: Σ' 1/R less its mean
 CURVATURE_SUM = 9.033621683100950  # φ2: Σ' 1/R³
 RATIOS = np.sinh(np.geomspace(1e-8, 15, 4000))
 """√(m² - 1) along a curve of Maugis."""
+COARSE = 16
+"""Every so many points of a curve are looked at for its least force, before those around it."""
 
 
 def jkr(a: Any) -> tuple[Any, Any, Any]:
@@ -165,6 +167,11 @@ class Sphere(NamedTuple):
         """Returns the largest attraction as a work of adhesion by JKR, F/(1.5πR), eV/Å²; NaN without attraction."""
         unit = float(np.cbrt(math.pi * self.work * self.radius**2 / self.stiffness))
         at = np.linspace(0.2, 3, 4000) * unit if stress is None else RATIOS
+        coarse = self.curve(at[::COARSE], stress)[1]
+        if not np.isfinite(coarse).any():
+            return math.nan
+        least = COARSE * int(np.nanargmin(coarse))
+        at = at[max(least - COARSE, 0):least + COARSE + 1]
         for _ in range(3):  # finer about the least
             force = self.curve(at, stress)[1]
             if not np.isfinite(force).any():
