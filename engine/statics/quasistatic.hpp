@@ -103,8 +103,8 @@ public:
     /// is reached.
     Outcome advance();
 
-    /// Returns the record of the last point: `step` is the number of the point, `damped` the energy
-    /// dissipated at instabilities.
+    /// Returns the record of the last point: `step` is the number of the point, Term::lost the
+    /// energy lost at instabilities.
     const StepRecord& now() const { return record_; }
     /// Returns the work done on the block and the losses in the current segment, eV. At a
     /// prescribed mean height the work is minus that of the interface's force, because the mean
