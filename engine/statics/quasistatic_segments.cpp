@@ -200,6 +200,7 @@ void QuasistaticPath::begin(Along along, double direction) {
                         slack(record_.in_contact));
     segment_.aim.begin();
     segment_.errors.begin();
+    segment_.errors.add_smooth(-owed_, owed_); // losses of this segment may pay it
     segment_.comes_to_rest = segment_.settles = false;
     segment_.crept = 0;
     segment_.from = at();
