@@ -301,7 +301,7 @@ void QuasistaticPath::visit(Visitor& v) {
     v("record", record_);
     v("last", last_);
     v("trail", trail_);
-    v("segment", segment_);
+    v("course", segment_); // the name in checkpoints
     v("length", length_);
     v("bracket", bracket_);
     v("dissipation", dissipation_);
