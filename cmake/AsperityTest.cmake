@@ -3,7 +3,7 @@
 #
 # asperity_test_program(<folder> LINK ...)
 #   One GoogleTest program of the suites of tests/<folder>, test_<folder>. Its arguments name the
-#   files whose tests it runs (support/main.cpp).
+#   files whose tests it runs (support/main.cpp). With asperity_test_support it has the precompiled header with the engine's headers.
 #
 # asperity_suite(<folder>/<file> LABELS ... [THREADS n] [RANKS n ...] [KERNELS level ...] [LONG]
 #                [TIMEOUT s] [ENVIRONMENT NAME=VALUE ...])
@@ -31,7 +31,11 @@ function(asperity_test_program folder)
     cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
     add_executable(test_${folder})
     target_link_libraries(test_${folder} PRIVATE asperity_warnings asperity_test_main ${ARG_LINK})
-    target_precompile_headers(test_${folder} REUSE_FROM asperity_test_main)
+    if("asperity_test_support" IN_LIST ARG_LINK)
+        target_precompile_headers(test_${folder} REUSE_FROM asperity_test_headers)
+    else()
+        target_precompile_headers(test_${folder} REUSE_FROM asperity_test_main)
+    endif()
     target_compile_definitions(test_${folder} PRIVATE ASPERITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endfunction()
 

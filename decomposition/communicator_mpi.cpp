@@ -98,7 +98,10 @@ void Communicator::sum(std::span<std::int64_t> v) const {
 }
 
 double Communicator::sum_on_machine(double value) const {
-    if (mpi_) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, mpi_->machine);
+    if (mpi_)
+        wait_after([&](MPI_Request* r) {
+            MPI_Iallreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, mpi_->machine, r);
+        });
     return value;
 }
 
