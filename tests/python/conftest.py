@@ -241,6 +241,13 @@ def light():
         yield patch
 
 
+@pytest.fixture(scope="module")
+def light_module():
+    """For all of a module: pytestmark = pytest.mark.usefixtures("light_module")."""
+    with without_pictures():
+        yield
+
+
 @pytest.fixture(scope="session")
 def results(tmp_path_factory):
     return tmp_path_factory.mktemp("a place")  # with a space in its name

@@ -21,6 +21,8 @@ from asperity.theories.indentation import Indenter, path
 from conftest import command
 from following import followed, not_followed
 
+pytestmark = pytest.mark.usefixtures("light_module")
+
 SOURCES = ("maps/force_curves.py", "studies/curves.py")
 EXCUSED = {"is in no format that is read without afmformats": "a package to be installed",
            "holds no force curve": "a map without any", "of the cantilever...export it as text": "a file that lacks more"}

@@ -17,6 +17,8 @@ from asperity.results.losses import losses
 from asperity.studies import quantities, tables
 from conftest import command, unsealed
 
+pytestmark = pytest.mark.usefixtures("light_module")
+
 ATOMS = {"surface": {"sites": 12, "rms": 0.4}, "block": {"young": 20.0, "poisson": 0.3, "thickness": 30},
          "drive": {"mode": "quasistatic", "velocity": 1.0}}
 WALL = {"surface": {"sites": 12, "spacing": "1 nm", "rms": "0.5 nm"}, "block": {"young": "20 MPa", "poisson": 0.49},

@@ -24,6 +24,8 @@ from conftest import ROOT, command, in_this_process
 sys.path.insert(0, str(ROOT / "scenes/validation"))
 import tips
 
+pytestmark = pytest.mark.usefixtures("light_module")
+
 GIVEN = {"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2", "stiffness": "2 N/m"}
 OPTIONS = [word for name, value in GIVEN.items() for word in (f"--{name}", str(value))]
 SITES = 28
