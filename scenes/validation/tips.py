@@ -47,8 +47,8 @@ def turning(values: np.ndarray, i: int, other: np.ndarray) -> tuple[float, float
     return float(np.polyval(np.polyfit([-1, 0, 1], values[near], 2), at)), float(np.polyval(np.polyfit([-1, 0, 1], other[near], 2), at))
 
 
-def of_rings(contact: Contact, load: float) -> dict[str, float]:
-    """The numbers by rings; load: nN."""
+def of_rings(contact: Contact, load: float, heights: int = 600) -> dict[str, float]:
+    """The numbers by rings; load: nN; heights: number of gaps at the middle from far apart to a contact."""
     R, E, w, rho = contact.radius, contact.modulus, contact.work, contact.range
     largest = contact.radius_at(load)
     finest = max(min(E * rho**2 / w / 8, largest / 160), largest / 800)
@@ -62,7 +62,8 @@ def of_rings(contact: Contact, load: float) -> dict[str, float]:
     shape = body.r**2 / (R + np.sqrt(R**2 - body.r**2))
     stiffness = max(50 * math.pi * E / largest * 20, 50 * w / rho**2)
     pressure = 3 * (load + 2 * contact.unit) / (math.pi * largest**2) + w / rho
-    middle = np.concatenate([np.geomspace(9 * rho, 0.02 * rho, 600), np.linspace(0.018 * rho, 0, 8), -np.linspace(0, pressure / stiffness, 480)[1:]])
+    pressed = -np.linspace(0, pressure / stiffness, 4 * heights // 5)[1:]
+    middle = np.concatenate([np.geomspace(9 * rho, 0.02 * rho, heights), np.linspace(0.018 * rho, 0, 8), pressed])
     height, force, radius = rings.whole(body, shape, rings.Exponential(w, rho, stiffness), middle)
     drive = height - force / contact.stiffness
     found = dict.fromkeys(COLUMNS, math.nan) | {"lost": 0.0}

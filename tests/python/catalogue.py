@@ -97,11 +97,11 @@ def arguments(tokens: list[tuple[str, str | None, int]], at: int, named: dict[st
 
 
 def messages_of_cpp(path: Path) -> list[Message]:
-    tokens, found = tokens_of(path), []
+    tokens, found, source = tokens_of(path), [], path.relative_to(ROOT)
     named = {tokens[i][0]: tokens[i + 2][1] for i in range(len(tokens) - 2)
              if tokens[i + 1][0] == "=" and tokens[i + 2][1] is not None and tokens[i - 1][0] == "*"}
     for i, (token, _, line) in enumerate(tokens[:-2]):
-        place = f"{path.relative_to(ROOT)}:{line}"
+        place = f"{source}:{line}"
         if token in MAKERS and tokens[i + 1][0] in "({":
             given = arguments(tokens, i + 1, named)
             if token in ("removed", "SceneError"):
@@ -136,9 +136,9 @@ def texts_of(node: ast.expr) -> list[str]:
 
 
 def messages_of_python(path: Path) -> list[Message]:
-    found = []
+    found, source = [], path.relative_to(ROOT)
     for node in ast.walk(ast.parse(path.read_text())):
-        place = f"{path.relative_to(ROOT)}:{getattr(node, 'lineno', 0)}"
+        place = f"{source}:{getattr(node, 'lineno', 0)}"
         if isinstance(node, ast.Call):
             name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
             if not re.search(r"Error$|^Stopped$|^refuse\w*$|^fail$", name) or name in ("ValueError", "KeyError", "AttributeError"):

@@ -219,14 +219,17 @@ def place(tmp_path, monkeypatch):
 
 @contextlib.contextmanager
 def without_pictures():
-    """Leaves the renormalised theory and the drawing of pictures out of the commands of this process, which would take most of
-    the time of a test that looks at neither. undo() puts them back."""
-    from asperity.plots import style  # here: they load OpenMP, and ranks.py imports this file before it chooses threads
+    """Leaves the renormalised theory, the drawing of pictures and most points of the theories' curves out of the commands of this
+    process, which would take most of the time of a test that looks at none of them. undo() puts them back."""
+    from asperity.plots import run, style  # here: they load OpenMP, and ranks.py imports this file before it chooses threads
+    from asperity.studies import sweeps
     from asperity.theories import combined
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(combined, "_known", {})
         patch.setattr(combined, "_renormalised", lambda rough, quick: {"note": "left out by a test"})
+        patch.setattr(sweeps, "CURVE", 2)
+        patch.setattr(run, "CURVE", 2)
         patch.setattr(style, "picture", lambda fig, kind: b"a picture")
         patch.setattr(style, "inline_svg", lambda fig: "<svg></svg>")
         yield patch
@@ -236,6 +239,13 @@ def without_pictures():
 def light():
     with without_pictures() as patch:
         yield patch
+
+
+@pytest.fixture(scope="module")
+def light_module():
+    """For all of a module: pytestmark = pytest.mark.usefixtures("light_module")."""
+    with without_pictures():
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -19,6 +19,8 @@ from asperity.running.scene import scene_file
 from asperity.studies.estimates import Estimating, surface_made
 from conftest import ROOT, command
 
+pytestmark = pytest.mark.usefixtures("light_module")
+
 MATTER = {"block": {"young": "5 GPa", "poisson": 0.3, "thickness": 32},
           "interface": {"kind": "wall", "range": 3, "adhesion": "200 mJ/m^2"}, "drive": {"path": ["relax"]}}
 SURFACE = {"sites": 32, "spacing": 5, "rms": 2.5, "q_max": 8, "seed": 3}

@@ -14,8 +14,9 @@ import pytest
 
 from asperity.errors import Error
 from asperity.files import store
+from asperity.plots import style
 from asperity.running import lock
-from conftest import OF_PYTHON, command, in_this_process
+from conftest import OF_PYTHON, command, in_this_process, without_pictures
 from test_files import SCENE, inputs as inputs  # the fixture
 
 DEEP = 100_000
@@ -53,11 +54,12 @@ def made(inputs, tmp_path_factory):
     """Directories of results: of a run that was stopped, of one that has ended, of a sweep and of a search for states."""
     place = tmp_path_factory.mktemp("made")
     shutil.copytree(inputs, place, dirs_exist_ok=True)
-    command("run", "q.toml", "--out", "stopped", "--set", "drive.path=approach,pull-off", "--wall-limit", "0.001s", cwd=place, expect=75)
+    command("run", "q.toml", "--out", "stopped", "--set", "drive.path=approach", "--wall-limit", "0.001s", cwd=place, expect=75)
     command("run", "q.toml", "--out", "ended", cwd=place)
-    command("sweep", "q.toml", "--set", "surface.rms=0.5,0.6", "--out", "sweep", cwd=place)
+    with without_pictures():
+        command("sweep", "q.toml", "--set", "surface.rms=0.5,0.6", "--out", "sweep", cwd=place)
     command("states", "q.toml", "--starts", "1", "--out", "states", cwd=place)
-    (place / "again.toml").write_text(SCENE.replace('"relax"', '"approach", "pull-off"'))
+    (place / "again.toml").write_text(SCENE.replace('"relax"', '"approach"'))
     return place
 
 
@@ -94,6 +96,12 @@ def called(words):
     finally:
         signal.alarm(0)
         signal.signal(signal.SIGALRM, before)
+
+
+@pytest.fixture()
+def without_figures(light, monkeypatch):
+    """Leaves the figures out of pages: a page is made of every bad object."""
+    monkeypatch.setattr(style, "make", lambda draw: None)
 
 
 @pytest.fixture()
@@ -138,7 +146,7 @@ def read(made):
 
 
 @pytest.mark.parametrize("words", [words for of in READERS.values() for words in of], ids=" ".join)
-def test_a_bad_object_ends_no_command_badly(words, read, copy, light):
+def test_a_bad_object_ends_no_command_badly(words, read, copy, without_figures):
     folder = next(folder for folder, of in READERS.items() if words in of)
     names = read(copy, folder, words)
     assert names

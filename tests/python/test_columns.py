@@ -19,6 +19,8 @@ from conftest import OF_PYTHON, ROOT, in_this_process, unfolded
 sys.path.append(str(ROOT / "packaging"))
 from generate import commands_of, say
 
+pytestmark = pytest.mark.usefixtures("light_module")
+
 PROGRAM = os.environ["ASPERITY_PROGRAM"]
 FAR = "a_name_that_is_somewhat_longer_than_names_are"
 TINY = """[surface]

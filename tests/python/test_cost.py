@@ -18,6 +18,8 @@ from asperity.studies.cost_parameters import Base, CostCase, Parameter, Row, cos
 from asperity.studies.variations import NAN, Variations, joined
 from conftest import command, rows, started, wait_for
 
+pytestmark = pytest.mark.usefixtures("light_module")
+
 
 def test_energies_are_compared_over_their_own_flat():
     a = numbers_of(Values({"delta_gamma": 50.0, "binding_energy": 30.0, "contact_fraction": 0.5}))

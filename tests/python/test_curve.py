@@ -21,6 +21,8 @@ from asperity.theories.indentation import Indenter, path
 from conftest import command
 from following import followed, not_followed
 
+pytestmark = pytest.mark.usefixtures("light_module")
+
 SOURCES = ("maps/force_curves.py", "studies/curves.py")
 EXCUSED = {"is in no format that is read without afmformats": "a package to be installed",
            "holds no force curve": "a map without any", "of the cantilever...export it as text": "a file that lacks more"}
@@ -282,12 +284,12 @@ def test_the_fitted_tip_is_simulated(tmp_path, monkeypatch):
     """The curve that `tip` computes, fitted for its range, gives numbers whose simulation is that curve again."""
     monkeypatch.chdir(tmp_path)
     given = {"radius": "20 nm", "stiffness": "2 N/m", "range": "0.3 nm"}
-    made = asperity.tip(**given, E="3 GPa", nu=0.3, w="50 mJ/m2", sites=28, out="made", load="8 nN", jobs=2)
+    made = asperity.tip(**given, E="3 GPa", nu=0.3, w="50 mJ/m2", sites=24, out="made", load="8 nN", jobs=2)
     draw = np.random.default_rng(0)
     file = Path("tip.csv")
     far = made.drive < 8
     file.write_text(text_of(made.drive[far], made.force[far] + 0.005 * draw.normal(size=far.sum()), made.retracting[far]))
-    found = asperity.curve(file, **given, nu=0.3, simulate=True, sites=28, jobs=2)
+    found = asperity.curve(file, **given, nu=0.3, simulate=True, sites=24, jobs=2)
     for name, truth in (("work", 50), ("modulus", 3 / 0.91)):
         number = found.number(name)
         assert abs(number.estimate - truth) < 2 * number.error + 0.05 * truth, str(number)

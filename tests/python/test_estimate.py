@@ -21,6 +21,8 @@ from asperity.studies.stated_number import Found, Number, rounded
 from asperity.studies.variations import Variation, Variations
 from conftest import command
 
+pytestmark = pytest.mark.usefixtures("light_module")
+
 GAMMA, CONTACT = FLAT[0], FLAT[2]
 TINY = {"name": "tiny", "surface": {"sites": 32, "rms": 0.6}, "block": {"thickness": 32}, "drive": {"path": ["relax"]}}
 

@@ -32,7 +32,7 @@ from asperity.running import program
 from asperity.studies import grid, states, tip
 from asperity.studies.stated_number import Number
 from asperity.theories.tip_shape import TipShape
-from conftest import unsealed
+from conftest import unsealed, without_pictures
 from following import ask, followed, not_followed
 
 OTHERS = test_fixes_scene.SOURCES + test_fixes_files.SOURCES + test_fixes_rubber.SOURCES + test_curve.SOURCES
@@ -97,13 +97,14 @@ def made(tmp_path_factory):
     assert ask("run", place / "s.toml", "--out", place / "part", "--set", "drive.max_steps=40")[0] == 0
     (place / "part/result.json").unlink()
     assert ask("run", place / "s.toml", "--out", place / "short", "--set", "drive.max_steps=40", "output.fields=[]")[0] == 0
-    for name in ("s", "t"):
-        asperity.sweep(place / f"{name}.toml", {"surface.rms": [0.4, 0.5]}, out=place / "swept" / name)
+    with without_pictures():
+        for name in ("s", "t"):
+            asperity.sweep(place / f"{name}.toml", {"surface.rms": [0.4, 0.5]}, out=place / "swept" / name)
     return place
 
 
 @pytest.fixture(autouse=True)
-def here(made, tmp_path, monkeypatch):
+def here(made, light, tmp_path, monkeypatch):
     work = tmp_path / "work"
     shutil.copytree(made, work)
     monkeypatch.chdir(work)

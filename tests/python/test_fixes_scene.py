@@ -4,6 +4,7 @@
 input and the fix done as the message says it."""
 
 import math
+import os
 import re
 from pathlib import Path
 
@@ -56,6 +57,9 @@ BASES = (STILL, MOVING, TURNS, WARM, QUASI, WALL, FREE, TIP, PAIR, LED, PULLED, 
 FEATURES = ({"block.layers": COATED}, {"block.prony": '[[1.0, "1 ns"]]'}, {"interface.hardness": "1"}, {"drive.stiffness": "0.2"}, {"surface.radius": "1000"},
             {"drive.path": '["approach", "slide x 5 Å"]'}, {FIELD: "stripes 1 2 20"}, {"output.stress": "section"})
 """Scenes on which each key is tried."""
+ALL = (*BASES, *({**QUASI, **one} for one in FEATURES), *({**PULLED, **one} for one in FEATURES))
+FINDING = ALL if os.environ.get("ASPERITY_LONG") else [base for k, base in enumerate(ALL) if k not in (2, 10, 15, 17, 19, 21, 22, 26, 27, 28)]
+"""Those of them that find a problem which no other one before finds."""
 EXAMPLES = {
     "drive.path": [f"[{path}]" for path in (
         '"relax"', '"approach"', '"approach", "pull-off"', '"approach", "slide x 5 Å"', '"approach", "slide x 5 Å under load"', '"pull-off"',
@@ -104,9 +108,7 @@ FILES |= {"real.txt": lammps("real"), "si.txt": lammps("si"), "metal.txt": lammp
 
 
 @pytest.fixture(scope="module", autouse=True)
-def files(tmp_path_factory):
-    import os
-
+def files(light_module, tmp_path_factory):
     before, place = os.getcwd(), tmp_path_factory.mktemp("fixes")
     os.chdir(place)
     FOLDER.append(place)
@@ -386,11 +388,11 @@ def changed(settings, way):
 
 
 def test_every_way_out():
-    """Every key at each of its values on each base: of each problem that this finds, all ways out that are said by keys. After each the
+    """Every key at each of its values on the bases: of each problem that this finds, all ways out that are said by keys. After each the
     problem is gone, and who goes on in this manner comes to a scene that is taken, or to a fix that asks for more than keys."""
     keys = asperity.defaults()
     tried, failed, offered = set(), [], 0
-    for base in (*BASES, *({**QUASI, **one} for one in FEATURES), *({**PULLED, **one} for one in FEATURES)):
+    for base in FINDING:
         for key, about in keys.items():
             for value in values_of(key, about):
                 settings = {**base, key: value}
@@ -423,7 +425,7 @@ def test_every_way_out():
                         followed(f"{problem['where']}: {problem['what']}\n    why: {problem['why']}\n    fix: {problem['fix']}")
     print(len(tried), offered)
     assert not failed, f"{len(failed)}\n" + "\n".join(failed)
-    assert len(tried) > 170 and offered > 170
+    assert len(tried) > 230 and offered > 170
 
 
 @pytest.mark.parametrize("says, bad, good, base", CASES, ids=range(len(CASES)))
@@ -436,8 +438,8 @@ def test_a_fix_of_a_setting(says, bad, good, base):
     found = re.search(says, said)
     assert found, said
     settings = {**base, **bad, **{filled(key, found.groups()): value and filled(value, found.groups()) for key, value in good.items()}}
-    code, now = check({key: value for key, value in settings.items() if value is not None})
-    assert code == 0, f"{said}\n--- after {good}:\n{now}"
+    now = problems_of({key: value for key, value in settings.items() if value is not None})
+    assert not now, f"{said}\n--- after {good}:\n{now}"
     followed(said)
 
 

@@ -15,6 +15,8 @@ from conftest import ROOT, command
 sys.path.insert(0, str(ROOT / "tests"))
 import bits
 
+pytestmark = pytest.mark.usefixtures("light_module")
+
 TIP = """[surface]
 kind = "flat"
 radius = "20 nm"

@@ -21,6 +21,8 @@ from conftest import ROOT, command
 sys.path.insert(0, str(ROOT / "scenes/validation"))
 from two_solids import AREAS, SHIFTS, SITES, banded, full, scene, slope
 
+pytestmark = pytest.mark.usefixtures("light_module")
+
 N = SITES
 
 

@@ -15,11 +15,13 @@ from matplotlib.figure import Figure
 import asperity
 from asperity import terminal
 from asperity.plots import style
+from asperity.running import program
 from conftest import SMALL
 
 TINY = {"name": "tiny", "surface": {"sites": 16, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
 STATIC = {"name": "static", "surface": {"sites": 16, "rms": 0.3}, "drive": {"mode": "quasistatic"}}
 EDGE = 16 * 2.6
+pytestmark = pytest.mark.usefixtures("light")
 MPA = 160217.66208  # in an eV/Å³
 
 
@@ -214,12 +216,28 @@ def test_progress_is_shown_where_somebody_looks(tmp_path, monkeypatch, stream, s
     assert there.getvalue().count("done in") == 2 * shown
 
 
-def test_run_says_how_far_it_is(tmp_path, capfd):
-    slow = {"surface": {"sites": 128, "rms": 0.5}, "drive": {"velocity": 20.0}}  # some seconds
-    asperity.run({**TINY, **slow}, {"drive.max_steps": 12000}, out=tmp_path / "told", progress=True)
+def stand_in(place, monkeypatch, *lines):
+    """Puts a script of the shell in the program's place. `lines`: its last ones; $program is the program's path."""
+    monkeypatch.setenv("program", program.path())
+    (place / "program").write_text("\n".join(["#!/bin/sh", *lines]) + "\n")
+    (place / "program").chmod(0o755)
+    monkeypatch.setattr(program, "path", lambda: str(place / "program"))
+
+
+def test_run_says_how_far_it_is(tmp_path, capfd, monkeypatch):
+    stand_in(tmp_path, monkeypatch, 'exec "$program" "$@" --wall-limit 4s')  # the first line comes after two seconds
+    with pytest.raises(asperity.Stopped):
+        asperity.run({**TINY, "surface": {"sites": 256, "rms": 0.5}, "drive": {"velocity": 0.01}}, out=tmp_path / "told", progress=True)
     assert re.search(r"%.*MPa, contact", capfd.readouterr().err)
-    asperity.run({**TINY, **slow}, {"drive.max_steps": 12000}, out=tmp_path / "silent")  # no terminal, no notebook
-    assert capfd.readouterr().err == ""
+
+
+@pytest.mark.parametrize("asked", [True, None])
+def test_what_a_run_says_is_shown_where_it_is_asked_for(tmp_path, capfd, monkeypatch, asked):
+    """Without being asked, there is neither a terminal nor a notebook here."""
+    stand_in(tmp_path, monkeypatch, """echo '{"fraction": 0.5, "text": "half of it"}' >&2""", 'exec "$program" "$@"')
+    asperity.run({**TINY, "drive": {"path": ["relax"]}}, out=tmp_path / "run", progress=asked)
+    said = capfd.readouterr().err
+    assert said.startswith("half of it\n") if asked else said == ""
 
 
 def test_a_wrong_name_is_told_what_there_is(path_run, results):

@@ -87,7 +87,7 @@ def test_the_page_of_a_path(path_run):
     assert asperity.running.program.check(str(scene))["scene"] == path_run.find("scene")
 
 
-def test_values_can_be_read_by_pointing(path_run):
+def test_values_can_be_read_by_pointing(path_run, light):
     found = page(path_run.directory)
     curves = [d for d in found.data if "curves" in d]
     maps = [d for d in found.data if "map" in d]
@@ -149,7 +149,7 @@ def test_the_ratio_of_a_theory_is_over_its_own_energy(tmp_path, light):
     assert over["theory.persson.gamma_full_contact"] == "0.2000" and over["theory.renormalised.gamma_eff"] == "0.7500"
 
 
-def test_a_sphere_has_its_own_numbers_and_curves(sphere_run):
+def test_a_sphere_has_its_own_numbers_and_curves(sphere_run, light):
     found = page(sphere_run.directory)
     for text in ("R = 100 Å", "Maugis-Dugdale with images", "as a JKR sphere", "largest attraction, pull-off"):
         assert text in found.text, text
@@ -252,7 +252,7 @@ def test_a_measured_surface_says_whose_it_is(tmp_path, light):
     assert "Persson’s theory" in labels  # over the stored surface
 
 
-def test_the_page_of_a_sweep(tmp_path):
+def test_the_page_of_a_sweep(tmp_path, light):
     out = tmp_path / "points"
     sweep = asperity.sweep(STATE, {"surface.rms": [0.2, 0.6], "surface.seed": [1, 2]}, out=out, jobs=2)
     assert sweep.directory == out

@@ -13,7 +13,7 @@ import pytest
 
 from asperity.running import program
 
-SITES, YOUNG, POISSON, RATIO, TIME = 64, 20.0, 0.49, 9.0, 1.0  # a nanometre apart; MPa, nanoseconds
+SITES, YOUNG, POISSON, RATIO, TIME = 48, 20.0, 0.49, 9.0, 1.0  # a nanometre apart; MPa, nanoseconds
 MODULUS = YOUNG / (1 - POISSON**2)
 SCENE = f"""
 [surface]
@@ -105,11 +105,11 @@ def test_friction_over_a_line_is_that_of_a_program_of_one_dimension(tmp_path, ve
 
 ROUGH = """
 [surface]
-sites = 48
+sites = 32
 spacing = "1 nm"
 rms = "0.4 nm"
-rolloff = 3
-q_max = 12
+rolloff = 2
+q_max = 8
 [block]
 young = "20 MPa"
 poisson = 0.49

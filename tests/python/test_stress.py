@@ -17,6 +17,8 @@ from asperity.studies.stress import COMPONENTS, largest_tension, stresses_in, vo
 from asperity.units import GIGAPASCAL
 from conftest import command
 
+pytestmark = pytest.mark.usefixtures("light_module")
+
 SPACING, SITES, POISSON = 2.0, 32, 0.3
 ROUGH = {"surface": {"sites": SITES, "spacing": SPACING, "rms": 0.6, "rolloff": 2, "q_max": 8, "seed": 3},
          "block": {"young": 20, "poisson": POISSON},

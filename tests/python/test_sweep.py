@@ -28,10 +28,10 @@ from asperity.plots.style import csv, drawn
 from asperity.reports import sentences
 from asperity.running import lock, pool, program
 from asperity.running.scene import inputs_of
-from asperity.studies import grid
+from asperity.studies import grid, sweeps
 from asperity.studies.sweeps import load_sweep, load_sweeps
 from asperity.studies.tables import text_of
-from conftest import STATE, command, held, is_told, rows, running, started, wait_for
+from conftest import STATE, command, held, is_told, rows, running, started, wait_for, without_pictures
 
 SCENE = """
 [surface]
@@ -545,22 +545,25 @@ AMONG_OTHERS = [{"OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0", "PMIX
 
 
 @pytest.mark.parametrize("env", ALONE)
-def test_one_process_of_a_launcher_is_one_process(place, env):
-    command("theory", "state.toml", "--json", "--set", "surface.kind=flat", env=env)  # a command of Python, and the program that it starts
-    command("check", "-", given=SCENE, env=env, says="nothing wrong")
+def test_one_process_of_a_launcher_is_one_process(place, env, monkeypatch):
+    for name, value in env.items():
+        monkeypatch.setenv(name, value)
+    command("theory", "state.toml", "--json", "--set", "surface.kind=flat")  # a command of Python, and the program that it starts
+    command("check", "-", given=SCENE, says="nothing wrong")
 
 
 def test_a_sweep_is_not_one_of_several_ranks(place):
-    def start(env):
+    def start(words, env):
         return subprocess.Popen([os.environ["ASPERITY_PROGRAM"], *words], env={**os.environ, **env}, text=True,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
-    for words in (["sweep", "state.toml"], ["sweep", "state.toml", "--theory-only"]):
-        others = [{name: "1" if "RANK" in name or "PROCID" in name else value for name, value in env.items()} for env in AMONG_OTHERS]
-        first, second = ([start(env) for env in all_of] for all_of in (AMONG_OTHERS, others))  # side by side: the others wait for the first
-        for one, other in zip(first, second):
-            assert "not one of several ranks" in one.communicate()[0] and one.returncode == 2
-            assert other.communicate()[0] == "" and other.returncode == 2  # one of them says it
+    others = [{name: "1" if "RANK" in name or "PROCID" in name else value for name, value in env.items()} for env in AMONG_OTHERS]
+    commands = (["sweep", "state.toml"], ["sweep", "state.toml", "--theory-only"])
+    # Side by side: the others wait for the first.
+    first, second = ([start(words, env) for words in commands for env in all_of] for all_of in (AMONG_OTHERS, others))
+    for one, other in zip(first, second, strict=True):
+        assert "not one of several ranks" in one.communicate()[0] and one.returncode == 2
+        assert other.communicate()[0] == "" and other.returncode == 2  # one of them says it
     assert not (place / "results").exists()
     for env in AMONG_OTHERS:
         with pytest.MonkeyPatch.context() as patch:
@@ -650,25 +653,26 @@ def test_jobs_and_executors_that_are_none_are_refused(place):
     assert not Path("none/sweep.json").exists()
 
 
-def test_points_share_the_processors_unless_somebody_has_chosen(place):
+def test_points_share_the_processors_unless_somebody_has_chosen(place, monkeypatch):
     def threads(directory):
         return asperity.load(f"{directory}/seed=1").run.threads
     words = ["sweep", "state.toml", "--progress", "off", "--jobs", "2", "--set", "surface.rms=0.2", "--out"]  # two seeds
-    subprocess.run([os.environ["ASPERITY_PROGRAM"], *words, "shared"], check=True, capture_output=True,
-                   env={k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"})
+    monkeypatch.delenv("OMP_NUM_THREADS")
+    command(*words, "shared")
     assert threads("shared") == max(1, len(os.sched_getaffinity(0)) // 2)
-    command(*words, "chosen", env={"OMP_NUM_THREADS": "3"})
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    command(*words, "chosen")
     assert threads("chosen") == 3
 
 
 def test_the_theory_of_a_realised_spectrum_has_all_seeds(place):
     given = {"surface.rms": [0.2, 0.4], "surface.seed": [1, 2]}
     sweep = asperity.sweep({**STATE, "theory": {"spectrum": "realised"}}, given, out="realised", jobs=2)
-    assert {p["set"]["surface.seed"] for p in sweep.theory} == {1, 2} and len(sweep.theory) == 62
+    assert {p["set"]["surface.seed"] for p in sweep.theory} == {1, 2} and len(sweep.theory) == 2 * sweeps.CURVE
     points, curve = (t.average(t.column("theory.persson.gamma_eff_ratio")) for t in (sweep.table, sweep.curves))
     assert points.deviation[1] > 1e-5  # the seeds are told apart
     assert curve.mean[[0, -1]] == pytest.approx(points.mean, rel=1e-12)
-    assert len(asperity.sweep(STATE, given, out="target", jobs=2).theory) == 31
+    assert len(asperity.sweep(STATE, given, out="target", jobs=2).theory) == sweeps.CURVE
 
 
 def test_several_scenes_share_their_plots(place):
@@ -698,12 +702,23 @@ def test_a_directory_has_one_sweep_at_a_time(place):
     assert "process 7 on host elsewhere" in command(*words, expect=4)
 
 
+TWO = ["sweep", "path.toml", "--set", "drive.velocity=30,40", "--jobs", "2", "--progress", "off", "--out"]
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """The table of a sweep that was not stopped."""
+    work = tmp_path_factory.mktemp("whole")
+    (work / "path.toml").write_text(PATH)
+    with without_pictures():
+        command(*TWO, "whole", cwd=work)
+    return numbers(work / "whole")
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
-def test_a_sweep_that_is_stopped_goes_on_to_the_same_table(place, number):
-    words = ["sweep", "path.toml", "--set", "drive.velocity=30,40", "--jobs", "2", "--progress", "off", "--out"]
-    command(*words, "whole")
+def test_a_sweep_that_is_stopped_goes_on_to_the_same_table(place, whole, number):
     points = [place / f"cut/velocity={v}" for v in (30, 40)]
-    with started(*words, "cut") as child:
+    with started(*TWO, "cut") as child:
         wait_for(lambda: any((p / "checkpoint.h5").exists() for p in points))
         with held(f"--out {place}/cut") as going:
             child.send_signal(number)
@@ -711,8 +726,8 @@ def test_a_sweep_that_is_stopped_goes_on_to_the_same_table(place, number):
         assert child.wait() == (75 if number == signal.SIGINT else -number)
     wait_for(lambda: not running(f"--out {place}/cut"))  # a point that the sweep left behind stops as well
     assert any((p / "checkpoint.h5").exists() for p in points)
-    command(*words, "cut")
-    assert numbers("whole") == numbers("cut")
+    command(*TWO, "cut")
+    assert numbers("cut") == whole
 
 
 def test_a_point_that_fails_is_told_and_the_others_go_on(place):
@@ -736,7 +751,7 @@ def test_a_launcher_gives_ranks(place):
     assert "'no-such-launcher' of --launch cannot be started" in said
 
 
-def test_the_theory_alone(place):
+def test_the_theory_alone(place, monkeypatch):
     # Seeds mean nothing to the theory of a target spectrum.
     written = ["sweep.csv", "sweep.json", "gamma.svg", "area.svg", "full-contact.svg"]
     command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=0.2:0.6:0.2", "drive.load=0,100", "--out",
@@ -755,12 +770,13 @@ def test_the_theory_alone(place):
     said = command("sweep", "state.toml", "--theory-only", "--set", "theory.area_factor=none,gaussian", "surface.rms=1",
                    "--out", "words")
     assert "no plots" in said and numbers("words")[0]["theory.area_factor"] == "none"
-    # Without values: a hundred roughnesses to a good way past the end of adhesion.
+    # Without values: roughnesses to a good way past the end of adhesion.
+    monkeypatch.setattr(sweeps, "ROUGHNESSES", 10)
     (place / "plain.toml").write_text("[surface]\nsites = 24\n")
     command("sweep", "plain.toml", "--theory-only", "--out", "plain")
     end = program.theory_points("plain.toml", [[]], profile=True)[0]["theory"]["persson"]["critical_rms"]
     rms = [float(r["surface.rms"]) for r in numbers("plain")]
-    assert len(rms) == 100 and 1.05 * end < rms[-1] < 2.0 * end
+    assert len(rms) == 10 and 1.05 * end < rms[-1] < 2.0 * end
     stored = json.loads((place / "plain/sweep.json").read_text())["run"]
     assert stored["version"] in command("--version") and {"git", "compiler", "flags"} <= stored.keys()
     table = asperity.sweep(STATE, {"surface.rms": "0.5:2:0.5"}, out="py", theory_only=True).table

@@ -15,6 +15,8 @@ from asperity.theories.yielding import EPSILON, YieldingSphere, oliver_pharr
 from conftest import in_this_process
 from test_tip import NOT_GIVEN
 
+pytestmark = pytest.mark.usefixtures("light_module")
+
 TIP = {"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "1 mJ/m2", "stiffness": "20 N/m", "range": "0.3 nm", "hardness": "0.1 GPa"}
 
 

@@ -41,6 +41,8 @@ OTHERS = (GREEN, PINK, SKY, YELLOW)
 BY_HAND = "led by the script"
 TOP = "displacement of the top plane"
 DRIVE = "displacement of the drive"
+CURVE = 16
+"""Number of roughnesses of a theory's curve."""
 
 
 def _columns(run: Result, *names: str) -> list[np.ndarray]:
@@ -366,7 +368,7 @@ def roughness(run: Result, ax: Axes) -> bool:
 
 
 def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list, object]]:
-    """Computes the theories of the run's scene at 16 roughnesses up to 1.8 times that of the run.
+    """Computes the theories of the run's scene at CURVE roughnesses up to 1.8 times that of the run.
 
     Parameters
     ----------
@@ -382,7 +384,7 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
     """
     if run.key("surface.kind") == "flat":
         return []
-    values = [1.8 * rms * i / 16 for i in range(1, 17)]
+    values = [1.8 * rms * i / CURVE for i in range(1, CURVE + 1)]
     points = combined.variations_of(run, [{"surface.rms": value} for value in values], quick=True)
     if not all("theory" in p for p in points):
         return []

@@ -42,6 +42,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 TABLES = "sweep.csv, sweep.json, sweep.h5"
+ROUGHNESSES = 100
+"""Number of values of a sweep of the theory that is given none."""
+CURVE = 31
+"""Number of values of a theory's curve between the points."""
 TABLE_FILES = ("sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json")
 
 
@@ -287,14 +291,14 @@ def load_sweeps(directory: Path) -> list[Sweep]:
 # From scenes to sweeps.
 
 def _default_axis(file: str, fixed: list[str]) -> Axis:
-    """Returns the default axis, without a --set of several values: 100 roughnesses, beyond the end of adhesion."""
+    """Returns the default axis, without a --set of several values: roughnesses beyond the end of adhesion."""
     step = 0.1
     with contextlib.suppress(Error):  # no such end, or a scene without roughness
         found = program.theory_points(file, [fixed], profile=True)[0]
-        wanted = 1.4 * Values(found).number("theory.persson.critical_rms", 100 * step / 1.4) / 100
+        wanted = 1.4 * Values(found).number("theory.persson.critical_rms", ROUGHNESSES * step / 1.4) / ROUGHNESSES
         decade = 10.0 ** math.floor(math.log10(wanted))
         step = min((m * decade for m in (1.0, 2.0, 2.5, 5.0, 10.0)), key=lambda s: abs(math.log(s / wanted)))
-    return Axis("surface.rms", [f"{i * step:.12g}" for i in range(1, 101)], "surface.rms")
+    return Axis("surface.rms", [f"{i * step:.12g}" for i in range(1, ROUGHNESSES + 1)], "surface.rms")
 
 
 def _axes(file: str, sets: list[str], of_scene: list[dict[str, str]], theory_only: bool,
@@ -331,7 +335,7 @@ def _point(axes: list[Axis], point: dict[str, Any]) -> dict[str, Any]:
 
 def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[dict[str, Any]],
                    needs_surface: bool) -> list[dict[str, Any]]:
-    """Returns the theory between the points: the same axes, 31 values along x, and one seed unless the surface matters."""
+    """Returns the theory between the points: the same axes, CURVE values along x, and one seed unless the surface matters."""
     x = Table([a.key for a in axes], points, False).along
     if x is None or not any("gamma_eff" in p["theory"].get("persson", {}) for p in points):  # none applies to these scenes
         return []
@@ -342,7 +346,7 @@ def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[d
         if axis.key == x and program.schema()[x]["kind"] == "number":
             low, high = (pick(p["set"][x] for p in points) for pick in (min, max))
             between = np.geomspace if in_decades((low, high)) else np.linspace
-            values = [f"{value:.12g}" for value in between(low, high, 31)]
+            values = [f"{value:.12g}" for value in between(low, high, CURVE)]
         finer.append(Axis(axis.key, values))
     found = combined.points(file, [fixed + point for point in points_of(finer)], quick=True)
     return [_point(finer, point) for point in found if "problems" not in point]  # where it has no number
