@@ -164,8 +164,8 @@ void expect_same_bits(const char* scene, const std::vector<std::string>& overrid
         world().broadcast(std::as_writable_bytes(std::span(whole)));
         EXPECT_GT(whole.size(), 20u);
     }
-    // Threads of more ranks would wait for processors.
-    const test::Threads threads(world().size() > 2 ? 1 : 2);
+    // Threads of several ranks would wait for processors.
+    const test::Threads threads(world().size() > 1 ? 1 : 2);
     if (world().size() == 1) {
         EXPECT_EQ(traces(alone, surface_of(alone), Communicator()), whole) << "two threads";
     }

@@ -4,7 +4,6 @@
 published numbers; and Persson's theory of the program against an integral equation that shares nothing with it."""
 
 import math
-import time
 
 import numpy as np
 import pytest
@@ -44,9 +43,7 @@ RECORDED = (
 def test_recorded_numbers():
     points = program.theory_points(SCENE, [[*SMALL, *keys.split()] for keys, *_ in RECORDED])
     for (keys, ratio, contact, separation, tension), point in zip(RECORDED, points):
-        start = time.process_time()
         found = theory.state(point["rough"])
-        assert time.process_time() - start < 4, keys  # 2 s on a processor of its own
         assert found.ratio == pytest.approx(ratio, abs=1e-4), keys
         assert found.contact == pytest.approx(contact, abs=3e-4), keys
         assert found.separation == pytest.approx(separation, abs=1e-3), keys
