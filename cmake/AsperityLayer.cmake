@@ -20,8 +20,8 @@
 # asperity_precompiled(<target>)
 #   The headers that nearly every file of io/ and engine/ includes, parsed once for all targets that ask for
 #   it: a third of what those files take to compile. It fits what is compiled with the same macros, so these
-#   targets have {fmt}'s and OpenMP's. Not with CMAKE_DISABLE_PRECOMPILE_HEADERS (preset debug, which so finds
-#   a header that a file forgot to include).
+#   targets have {fmt}'s and OpenMP's. Not with CMAKE_DISABLE_PRECOMPILE_HEADERS (presets debug and audit, which
+#   so find a header that a file forgot to include).
 
 # x86-64 levels that the kernels are compiled for, one table of functions each (kernels/variant.hpp).
 set(ASPERITY_LEVELS all CACHE STRING

@@ -75,9 +75,9 @@ done
 "$python" scenes/validation/dents.py --out $place/dents --csv $data/tables/dents.csv
 made $data/tables/dents.csv
 "$python" scenes/validation/works.py --out $place/errors --csv $data/tables/standard-errors.csv
+made $data/tables/standard-errors.csv
 "$python" scenes/validation/loss_sizes.py --sites 64 128 256 --tight 128 --out $place/loss-sizes --csv $data/tables/loss-sizes.csv
 made $data/tables/loss-sizes.csv
-made $data/tables/standard-errors.csv
 "$python" $gallery/renormalised.py
 "$python" $gallery/fig5.py
 ./asperity sweep scenes/paper/small/fig2-quasistatic.toml --set surface.rms=0.5,1,1.5,2,3,4.5 --out $place/works >$place/log.txt

@@ -33,7 +33,7 @@ def path_over(out: pathlib.Path, block: str, sites: int, seed: int, tolerance: f
     """Returns the path over this surface."""
     keys, longest = BLOCKS[block]
     return kept.run(ROOT / "scenes/paper/fig2-quasistatic.toml", keys | {
-        "surface.rms": 2, "surface.sites": sites, "surface.rolloff": int(sites / longest), "surface.seed": seed,
+        "surface.rms": 2, "surface.sites": sites, "surface.rolloff": round(sites / longest), "surface.seed": seed,
         "drive.tolerance": tolerance, "output.fields": [], "output.checkpoint": "none"}, out / f"{block}-{sites}-{seed}-{tolerance:g}")
 
 

@@ -54,12 +54,14 @@ FIELDS = "output.fields"
 FIELD = "interface.adhesion"
 FOLDER: list[Path] = []
 BASES = (STILL, MOVING, TURNS, WARM, QUASI, WALL, FREE, TIP, PAIR, LED, PULLED, ATOMS, MAP, TABLE, {**MOVING, "numerics.device": "emulated"})
-FEATURES = ({"block.layers": COATED}, {"block.prony": '[[1.0, "1 ns"]]'}, {"interface.hardness": "1"}, {"drive.stiffness": "0.2"}, {"surface.radius": "1000"},
-            {"drive.path": '["approach", "slide x 5 Å"]'}, {FIELD: "stripes 1 2 20"}, {"output.stress": "section"})
-"""Scenes on which each key is tried."""
-ALL = (*BASES, *({**QUASI, **one} for one in FEATURES), *({**PULLED, **one} for one in FEATURES))
-FINDING = ALL if os.environ.get("ASPERITY_LONG") else [base for k, base in enumerate(ALL) if k not in (2, 10, 15, 17, 19, 21, 22, 26, 27, 28)]
-"""Those of them that find a problem which no other one before finds."""
+FEATURES = {"layers": {"block.layers": COATED}, "branches": {"block.prony": '[[1.0, "1 ns"]]'}, "hardness": {"interface.hardness": "1"},
+            "spring": {"drive.stiffness": "0.2"}, "sphere": {"surface.radius": "1000"}, "slide": {"drive.path": '["approach", "slide x 5 Å"]'},
+            "field": {FIELD: "stripes 1 2 20"}, "stress": {"output.stress": "section"}}
+EVERY = os.environ.get("ASPERITY_LONG")
+TRIED = (*(base for base in BASES if EVERY or base not in (TURNS, PULLED)),
+         *({**QUASI, **FEATURES[one]} for one in (FEATURES if EVERY else ("branches", "spring", "slide"))),
+         *({**PULLED, **FEATURES[one]} for one in (FEATURES if EVERY else ("layers", "branches", "hardness", "field", "stress"))))
+"""Scenes on which each key is tried: all of them, or those that find a problem which no other one before finds."""
 EXAMPLES = {
     "drive.path": [f"[{path}]" for path in (
         '"relax"', '"approach"', '"approach", "pull-off"', '"approach", "slide x 5 Å"', '"approach", "slide x 5 Å under load"', '"pull-off"',
@@ -392,7 +394,7 @@ def test_every_way_out():
     problem is gone, and who goes on in this manner comes to a scene that is taken, or to a fix that asks for more than keys."""
     keys = asperity.defaults()
     tried, failed, offered = set(), [], 0
-    for base in FINDING:
+    for base in TRIED:
         for key, about in keys.items():
             for value in values_of(key, about):
                 settings = {**base, key: value}
