@@ -13,10 +13,6 @@
 #   <layer>_<folder>, with #include "<layer>/<folder>/x.hpp". Of an empty folder's name: headers of the
 #   layer's own folder, <layer>_base.
 
-# asperity_text_sources(<name> <regex>)
-#   Sources of the layer <name> that make and read text or call the hot code of others: -O1 compiles them in
-#   two thirds of the time, and no result waits for them.
-
 # asperity_precompiled(<target>)
 #   The headers that nearly every file of io/ and engine/ includes, parsed once for all targets that ask for
 #   it: a third of what those files take to compile. It fits what is compiled with the same macros, so these
@@ -114,12 +110,6 @@ function(asperity_folder layer folder)
         asperity_precompiled(asperity_${name})
     endif()
     add_library(asperity::${name} ALIAS asperity_${name})
-endfunction()
-
-function(asperity_text_sources name regex)
-    get_target_property(sources asperity_${name} SOURCES)
-    list(FILTER sources INCLUDE REGEX "${regex}")
-    set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
 endfunction()
 
 function(asperity_precompiled target)

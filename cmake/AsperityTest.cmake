@@ -4,6 +4,7 @@
 # asperity_test_program(<folder> LINK ...)
 #   One GoogleTest program of the suites of tests/<folder>, test_<folder>. Its arguments name the
 #   files whose tests it runs (support/main.cpp). With asperity_test_support it has the precompiled header with the engine's headers.
+#   Its files are compiled several at a time: what two of them have in common stands in support/, and their other names differ.
 #
 # asperity_suite(<folder>/<file> LABELS ... [THREADS n] [RANKS n ...] [KERNELS level ...] [LONG]
 #                [TIMEOUT s] [ENVIRONMENT NAME=VALUE ...])
@@ -37,6 +38,9 @@ function(asperity_test_program folder)
         target_precompile_headers(test_${folder} REUSE_FROM asperity_test_main)
     endif()
     target_compile_definitions(test_${folder} PRIVATE ASPERITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    if(NOT files_alone) # several files at a time, as text layers are
+        set_target_properties(test_${folder} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    endif()
 endfunction()
 
 function(asperity_suite file)

@@ -32,21 +32,21 @@ Json result_in(const std::string& file) {
     }
 }
 
-enum class Holds { nothing, result, unfinished };
+enum class Holds { nothing, result, unfinished_run };
 
 Holds holds(const fs::path& directory) {
     std::error_code error;
     const auto there = [&](const char* name) { return fs::exists(directory / name, error); };
     // Checkpoints: of versions that had no journal.
     const bool begun = there(run_file::journal) || there(run_file::checkpoint);
-    if (!there("result.json")) return begun ? Holds::unfinished : Holds::nothing;
+    if (!there("result.json")) return begun ? Holds::unfinished_run : Holds::nothing;
     if (!begun) return Holds::result;
     const Json result = result_in(directory / "result.json");
     const Json* const stopped = find(result, "run.stopped");
     const Json* const code = find(result, "failure.exit_code");
     const bool goes_on = (stopped && (*stopped == "wall_limit" || *stopped == "signal")) ||
                          (code && *code == exit_code::input_output);
-    return goes_on ? Holds::unfinished : Holds::result;
+    return goes_on ? Holds::unfinished_run : Holds::result;
 }
 
 fs::path first_place(const ResultRequest& request) { return fs::path("results") / request.name; }
@@ -93,7 +93,7 @@ void check(const ResultRequest& request, const Directory& directory) {
                                  "results are not written over",
                                  std::string("name another directory (--out), or remove this one") +
                                      (resumable ? "; or go on with it: --resume auto" : "")});
-    if (found == Holds::unfinished && !request.resume && !request.restart)
+    if (found == Holds::unfinished_run && !request.resume && !request.restart)
         throw SceneError(Problem{
             path,
             fmt::format("holds an unfinished run, {}",

@@ -12,7 +12,7 @@ namespace asperity::binding {
 namespace {
 
 using Sim = SteppedPath;
-using Class = py::class_<Sim, std::shared_ptr<Sim>>;
+using SimulationClass = py::class_<Sim, std::shared_ptr<Sim>>;
 
 /// Returns the ranks of a communicator, by its number in Fortran, or this process alone.
 Communicator ranks_of(const std::optional<int>& number) {
@@ -65,7 +65,7 @@ BothWays both_ways(const PathResults& results, const Number& number) {
 }
 
 /// Binds the numbers of the present step.
-void bind_numbers(Class& simulation) {
+void bind_numbers(SimulationClass& simulation) {
     simulation
         .def_property_readonly(
             "done", &Sim::done,
@@ -122,7 +122,7 @@ void bind_numbers(Class& simulation) {
 }
 
 /// Binds the fields of the sites.
-void bind_fields(Class& simulation) {
+void bind_fields(SimulationClass& simulation) {
     simulation
         .def_property_readonly(
             "u", [](Sim& sim) { return arrays_of(sim, sim.u()); },
@@ -160,7 +160,7 @@ void bind_fields(Class& simulation) {
 }
 
 /// Binds what the Python class needs.
-void bind_inner(Class& simulation) {
+void bind_inner(SimulationClass& simulation) {
     simulation
         .def_property_readonly(
             "_substrate_height",
@@ -194,7 +194,7 @@ void bind_inner(Class& simulation) {
 } // namespace
 
 void bind_simulation(py::module_& m) {
-    Class simulation(m, "Simulation");
+    SimulationClass simulation(m, "Simulation");
     simulation
         .def(py::init([](const std::string& file, const std::vector<std::string>& overrides,
                          const std::optional<int>& communicator) {

@@ -14,11 +14,11 @@ using namespace pybind11::literals;
 
 namespace {
 
-using Class = py::class_<LedPath, std::shared_ptr<LedPath>>;
+using StaticsClass = py::class_<LedPath, std::shared_ptr<LedPath>>;
 using State = LedPath::State;
 
 /// Binds the point where the path is, and the targets of the next relax().
-void bind_point(Class& statics) {
+void bind_point(StaticsClass& statics) {
     statics.def_property_readonly("now", &LedPath::now, "Point of the last relax()")
         .def_property(
             "mean_height", [](const LedPath& s) { return s.now().mean_height; },
@@ -36,7 +36,7 @@ void bind_point(Class& statics) {
 }
 
 /// Binds the spring that holds the top plane.
-void bind_spring(Class& statics) {
+void bind_spring(StaticsClass& statics) {
     statics.def_property_readonly(
         "stiffness",
         [](const LedPath& s) {
@@ -47,7 +47,7 @@ void bind_spring(Class& statics) {
 }
 
 /// Binds what the Python class and a search of states need, in the units of the engine.
-void bind_inner(Class& statics) {
+void bind_inner(StaticsClass& statics) {
     statics
         .def_property_readonly(
             "_case", // what a search needs of it, in the units of the engine
@@ -79,7 +79,7 @@ void bind_inner(Class& statics) {
 } // namespace
 
 void bind_statics(py::module_& m) {
-    Class statics(m, "Statics");
+    StaticsClass statics(m, "Statics");
     statics
         .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {
             const Given scene = read(file, overrides);

@@ -3,6 +3,7 @@
 """Runs that are kept, so that a script that is started again goes on where it was stopped."""
 import os
 import pathlib
+import shutil
 import sys
 from typing import Any
 
@@ -11,7 +12,10 @@ import asperity
 
 
 def run(scene: dict | os.PathLike, keys: dict[str, Any], place: pathlib.Path) -> asperity.Result:
-    """Returns the result in this directory, made now unless it is there. Its scene is not compared with the one that is asked for."""
+    """Returns the result in this directory, made now unless a whole one is there. Its scene is not compared with the one that is asked for."""
     if (place / "result.json").exists():
-        return asperity.load(place)
+        result = asperity.load(place)
+        if not result.stopped:
+            return result
+        shutil.rmtree(place)
     return asperity.run(scene, keys, place, progress=False)

@@ -26,16 +26,16 @@
 namespace asperity {
 namespace {
 
-constexpr const char* small = "[surface]\nsites = 16\nrms = 0.8\n[block]\nthickness = 16\n"
-                              "layers_per_level = 3\n[drive]\nvelocity = 100\n";
+constexpr const char* atoms_scene = "[surface]\nsites = 16\nrms = 0.8\n[block]\nthickness = 16\n"
+                                    "layers_per_level = 3\n[drive]\nvelocity = 100\n";
 
 Case case_of(const std::vector<std::string>& overrides) {
-    return read_case_text(small, "test.toml", overrides);
+    return read_case_text(atoms_scene, "test.toml", overrides);
 }
 /// Of atoms in a file; the rms of the text above is left out.
 Case case_over(const std::string& file, std::vector<std::string> overrides = {}) {
     overrides.insert(overrides.begin(), {"surface.kind=atoms", "surface.file=" + file});
-    std::string text = small;
+    std::string text = atoms_scene;
     text.erase(text.find("rms = 0.8\n"), 10);
     return read_case_text(text, "test.toml", overrides);
 }

@@ -14,8 +14,7 @@
 namespace asperity {
 namespace {
 
-constexpr double a = 2.6;
-constexpr double r0 = 3.28;
+using test::paper::a, test::paper::r0;
 
 InterfaceOptions with_cutoff(double cutoff, bool tail = false) {
     InterfaceOptions o;

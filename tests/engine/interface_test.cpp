@@ -25,9 +25,8 @@
 namespace asperity {
 namespace {
 
-constexpr double a = 2.6;
-constexpr double r0 = 3.28;
 using test::Outcome, test::same_bits, test::scattered, test::State, test::sweep;
+using test::paper::a, test::paper::r0;
 
 void expect_close(const Outcome& reference, const Outcome& other, const std::string& what) {
     double worst = 0.0;

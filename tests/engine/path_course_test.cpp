@@ -48,12 +48,12 @@ StateNumbers numbers_of(const Path& path) {
     return collect.numbers;
 }
 
-const std::string small = "surface.sites = 16\nsurface.rms = 0.7\nblock.thickness = 8\n";
+const std::string small_scene = "surface.sites = 16\nsurface.rms = 0.7\nblock.thickness = 8\n";
 const std::string quick = "drive.velocity = 100\ndrive.timestep = 40\n";
 const std::string still = "drive.mode = \"quasistatic\"\n";
 
 Case case_of(const std::string& keys) {
-    return resolve(read_scene_text(small + keys, "test.toml"));
+    return resolve(read_scene_text(small_scene + keys, "test.toml"));
 }
 
 const Course dynamic_leg = {Status::under_way, Status::at_end, Status::behind_end};

@@ -27,7 +27,7 @@ using namespace asperity;
 
 namespace {
 
-Case case_with(const std::vector<std::string>& overrides, int ranks = 1) {
+Case planned(const std::vector<std::string>& overrides, int ranks = 1) {
     return read_case_text("[surface]\nsites = 32\nrms = 1.0\n", "test.toml", overrides, ranks);
 }
 double bytes_of(const Plan& plan) {
@@ -38,7 +38,7 @@ double bytes_of(const Plan& plan) {
 
 TEST(Plan, MemoryGrowsWithTheSitesAndTheNodes) {
     const auto bytes = [](const std::vector<std::string>& keys) {
-        return bytes_of(make_plan(case_with(keys), 0));
+        return bytes_of(make_plan(planned(keys), 0));
     };
     const std::string rest = "drive.path=relax";
     EXPECT_NEAR(bytes({"surface.sites=1024", rest}) / bytes({"surface.sites=512", rest}), 4.0, 0.1);
@@ -48,14 +48,14 @@ TEST(Plan, MemoryGrowsWithTheSitesAndTheNodes) {
     const auto block = [&](const char* layers) {
         std::vector<std::string> keys = lattice;
         keys.emplace_back(layers);
-        return make_plan(case_with(keys), 0).bytes[Piece::block];
+        return make_plan(planned(keys), 0).bytes[Piece::block];
     };
     EXPECT_NEAR(block("block.thickness=200") / block("block.thickness=100"), 2.0, 0.05);
 }
 
 TEST(Plan, RanksShareTheSurfaceTheBlockAndTheMaps) {
-    const Plan alone = make_plan(case_with({"surface.sites=96"}), 0),
-               shared = make_plan(case_with({"surface.sites=96"}, 4), 0);
+    const Plan alone = make_plan(planned({"surface.sites=96"}), 0),
+               shared = make_plan(planned({"surface.sites=96"}, 4), 0);
     EXPECT_NEAR(shared.bytes[Piece::surface] / alone.bytes[Piece::surface], 1.0, 1e-9);
     EXPECT_EQ(alone.bytes[Piece::surface], 8.0 * 96 * 96);
     EXPECT_NEAR(shared.bytes[Piece::maps] / alone.bytes[Piece::maps], 1.0, 0.1);
@@ -66,7 +66,7 @@ TEST(Plan, RanksShareTheSurfaceTheBlockAndTheMaps) {
 }
 
 TEST(Plan, ARankAndTheFilesAreThere) {
-    const Case c = case_with({"surface.sites=96", "output.trajectory=10"}, 4);
+    const Case c = planned({"surface.sites=96", "output.trajectory=10"}, 4);
     const Plan plan = make_plan(c, 1);
     const auto json = plan_json(c, 1, plan);
     EXPECT_EQ(json["sites_of_rank"], (nlohmann::ordered_json{48, 48}));
@@ -75,7 +75,7 @@ TEST(Plan, ARankAndTheFilesAreThere) {
     EXPECT_LT(rank, 0.5 * all);
     EXPECT_EQ(json["bytes"]["state"], 49.0 * 96 * 96);
     EXPECT_EQ(json["bytes"]["frame"], 12.0 * 96 * 96);
-    EXPECT_EQ(make_plan(case_with({"surface.sites=96"}), 0).frame_bytes, 0.0);
+    EXPECT_EQ(make_plan(planned({"surface.sites=96"}), 0).frame_bytes, 0.0);
 }
 
 /// The bytes of a state are those of its maps in run.h5.
@@ -95,7 +95,7 @@ TEST(Plan, AStateTakesWhatIsWritten) {
         Keys keys = {"block.thickness=16"};
         keys.insert(keys.end(), first.begin(), first.end());
         keys.insert(keys.end(), more.begin(), more.end());
-        const Case c = case_with(keys);
+        const Case c = planned(keys);
         const io::Scratch scratch;
         test::run_scene(c, scratch / "out");
         const io::Hdf5File file(scratch / "out/run.h5", io::Hdf5File::Mode::read);
@@ -116,7 +116,7 @@ TEST(Plan, HeightsOfARankAreThoseHeld) {
              {"drive.mode=quasistatic", "drive.path=[\"approach\", \"slide x 2 Å\"]"}}) {
         std::vector<std::string> wide = keys;
         wide.insert(wide.end(), {"surface.sites=512", "block.thickness=16"});
-        const Case c = case_with(wide, 8);
+        const Case c = planned(wide, 8);
         const Plan plan = make_plan(c, 0);
         const Surface surface = surface_of(c);
         double held = 0.0;
@@ -134,10 +134,10 @@ TEST(Plan, HeightsOfARankAreThoseHeld) {
 /// The solver of points over a wall has more arrays than that of a state, wherever a path begins.
 TEST(Plan, PathsOverAWallTakeTheirSolver) {
     const auto bytes = [](const char* path) {
-        return bytes_of(make_plan(
-            case_with({"surface.sites=256", "interface.kind=wall", "drive.mode=quasistatic",
-                       "output.fields=[]", std::string("drive.path=") + path}),
-            0));
+        return bytes_of(
+            make_plan(planned({"surface.sites=256", "interface.kind=wall", "drive.mode=quasistatic",
+                               "output.fields=[]", std::string("drive.path=") + path}),
+                      0));
     };
     const double approach = bytes("[\"approach\", \"pull-off\"]");
     EXPECT_GT(approach, 1.2 * bytes("[\"relax\"]"));
@@ -146,7 +146,7 @@ TEST(Plan, PathsOverAWallTakeTheirSolver) {
 }
 
 TEST(Plan, NodesHoldSoManyRanks) {
-    const Case c = case_with({"surface.sites=96"}, 4);
+    const Case c = planned({"surface.sites=96"}, 4);
     const Plan plan = make_plan(c, 0);
     const double largest = *std::max_element(plan.bytes_of_rank.begin(), plan.bytes_of_rank.end());
     const auto ranks_of = [&](double node) {
@@ -164,11 +164,11 @@ TEST(Plan, NodesHoldSoManyRanks) {
 
 TEST(Plan, WhatTheSceneDoesNotCallForTakesNothing) {
     const Plan finite =
-        make_plan(case_with({"output.fields=[]", "block.strain=finite", "block.thickness=8"}), 1);
+        make_plan(planned({"output.fields=[]", "block.strain=finite", "block.thickness=8"}), 1);
     EXPECT_EQ(finite.bytes[Piece::maps], 0.0);
     EXPECT_EQ(finite.bytes[Piece::rest], 0.0) << "no state at finite strain";
     EXPECT_GT(finite.bytes[Piece::kept], 0.0);
-    const Plan rest = make_plan(case_with({"drive.path=relax"}), 1);
+    const Plan rest = make_plan(planned({"drive.path=relax"}), 1);
     EXPECT_EQ(rest.bytes[Piece::kept], 0.0);
     EXPECT_EQ(rest.steps, 0);
     EXPECT_EQ(rest.moving, 0.0);
@@ -176,8 +176,8 @@ TEST(Plan, WhatTheSceneDoesNotCallForTakesNothing) {
 }
 
 TEST(Plan, WhatDoesNotFitIsRefusedBeforeItIsMade) {
-    const Case c = case_with({"surface.sites=32768", "block.thickness=32768", "block.model=lattice",
-                              "surface.q_max=16384"});
+    const Case c = planned({"surface.sites=32768", "block.thickness=32768", "block.model=lattice",
+                            "surface.q_max=16384"});
     const std::string refused =
         test::message_of<io::SceneError>([&] { require_memory(c, Communicator()); });
     EXPECT_TRUE(test::has(refused, "the run does not fit into memory")) << refused;
@@ -191,17 +191,17 @@ TEST(Plan, WhatDoesNotFitIsRefusedBeforeItIsMade) {
 
 TEST(Plan, StepsFollowThePathAndAllWorkIsSharedAmongTheThreads) {
     const std::string thin = "block.thickness=32";
-    const Plan plan = make_plan(case_with({thin}), 1);
+    const Plan plan = make_plan(planned({thin}), 1);
     // Down and up 13.12 Å and more at 5 m/s in steps of 10 fs.
     const double least = 2.0 * 13.12 / 5e-5 / 10.0, steps = static_cast<double>(plan.steps);
     EXPECT_GT(steps, least);
     EXPECT_LT(steps, 2.0 * least);
-    const Plan slow = make_plan(case_with({thin, "drive.velocity=2.5"}), 1);
+    const Plan slow = make_plan(planned({thin, "drive.velocity=2.5"}), 1);
     EXPECT_NEAR(static_cast<double>(slow.steps), 2.0 * steps, 0.1 * steps);
-    EXPECT_EQ(make_plan(case_with({thin, "drive.max_steps=7"}), 1).steps, 7);
+    EXPECT_EQ(make_plan(planned({thin, "drive.max_steps=7"}), 1).steps, 7);
     // Times are measured anew for each plan: against a factor of a million they do not matter.
     constexpr int many = 1'000'000;
-    const Plan shared = make_plan(case_with({thin}), many);
+    const Plan shared = make_plan(planned({thin}), many);
     for (double Plan::*time : {&Plan::making, &Plan::moving, &Plan::rest})
         EXPECT_NEAR(std::log10(plan.*time / shared.*time), 6.0, 2.0);
 }
@@ -214,7 +214,7 @@ TEST(Plan, PathsAndStatesTakeTheTimeThatItSays) {
              {path, "surface.sites=48", "surface.rms=1.5"},
              {path, "drive.control=mean-height", "interface.kind=wall"},
              {"drive.path=relax", "surface.sites=256", "surface.rms=3"}}) {
-        const Case c = case_with(keys);
+        const Case c = planned(keys);
         const Plan plan = make_plan(c, 1);
         const io::Scratch scratch;
         const std::clock_t begin = std::clock();
@@ -235,7 +235,7 @@ TEST(Plan, ASoftSpringIsAWay) {
     const auto with = [&](const std::string& stiffness) {
         std::vector<std::string> keys = wall;
         keys.push_back("drive.stiffness=" + stiffness);
-        return case_with(keys);
+        return planned(keys);
     };
     const Case c = with("2e-3");
     const BlockOptions& block = c.simulation.block;

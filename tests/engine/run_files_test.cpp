@@ -21,7 +21,7 @@ namespace asperity {
 namespace {
 
 constexpr std::size_t n = 16;
-constexpr double a = 2.6;
+using test::paper::a;
 
 double ridge(double x) { // in units of the box
     return 1.2 * std::sin(2.0 * std::numbers::pi * x) + 0.6 * std::cos(4.0 * std::numbers::pi * x);

@@ -19,7 +19,7 @@ using test::Outcome, test::same_bits, test::State, test::sweep;
 
 namespace {
 
-constexpr double a = 2.6;
+using test::paper::a;
 constexpr int sites = 24; // 62.4 Å: more than twice the cutoff
 
 /// Three rough layers without any lattice, and a step of 4 Å at half the box; of one type, or of

@@ -19,7 +19,7 @@
 namespace asperity {
 namespace {
 
-const LennardJones gold{};
+const LennardJones lennard_jones{};
 
 /// Lennard-Jones at `points` distances from 1.8 to 14 Å.
 std::shared_ptr<const PotentialTable> gold_table(int points) {
@@ -35,7 +35,7 @@ std::shared_ptr<const PotentialTable> gold_table(int points) {
 /// Of each kind.
 struct Potentials {
     std::shared_ptr<const PotentialTable> table = gold_table(600);
-    std::vector<PairPotential> all = {gold, LennardJones{0.03, 2.6, 7.0}, Morse{},
+    std::vector<PairPotential> all = {lennard_jones, LennardJones{0.03, 2.6, 7.0}, Morse{},
                                       Morse{0.4, 1.1, 2.9, 9.0}, table->potential(13.12)};
 };
 
@@ -184,7 +184,7 @@ TEST(PotentialTable, IsTheFunctionItWasMadeOf) {
     const auto error = [](int points) {
         const auto table = gold_table(points);
         const Pair made(table->potential(13.12));
-        const Pair exact(gold);
+        const Pair exact(lennard_jones);
         double most = 0.0;
         for (double r = 2.7; r < 13.1; r += 0.00713)
             most = std::max(most, std::abs(made.energy(r * r) - exact.energy(r * r)));
@@ -194,10 +194,10 @@ TEST(PotentialTable, IsTheFunctionItWasMadeOf) {
     EXPECT_NEAR(std::log2(error(150) / error(300)), 4.0, 0.5);
     const auto table = gold_table(1200);
     const Tabulated p = table->potential(13.12);
-    EXPECT_NEAR(p.minimum(), gold.minimum(), 1e-6);
-    EXPECT_NEAR(p.inflection(), gold.inflection(), 1e-4);
-    EXPECT_NEAR(p.zero(), gold.zero(), 1e-8);
-    EXPECT_NEAR(p.depth(), gold.depth(), 1e-9);
+    EXPECT_NEAR(p.minimum(), lennard_jones.minimum(), 1e-6);
+    EXPECT_NEAR(p.inflection(), lennard_jones.inflection(), 1e-4);
+    EXPECT_NEAR(p.zero(), lennard_jones.zero(), 1e-8);
+    EXPECT_NEAR(p.depth(), lennard_jones.depth(), 1e-9);
 }
 
 TEST(PotentialTable, RefusesWhatIsNoPotential) {
@@ -208,7 +208,7 @@ TEST(PotentialTable, RefusesWhatIsNoPotential) {
     Numbers r, v;
     for (int i = 0; i < 40; ++i) {
         r.push_back(2.0 + 0.25 * i);
-        v.push_back(Pair(gold).unshifted(r.back() * r.back()));
+        v.push_back(Pair(lennard_jones).unshifted(r.back() * r.back()));
     }
     EXPECT_EQ(refused(r, v), "");
     EXPECT_NE(refused({2, 3, 4}, {1, -1, 0}).find("8 pairs"), std::string::npos);

@@ -28,7 +28,7 @@ namespace {
 
 using test::from_root, test::Trace, test::world;
 
-struct Stack {
+struct Body {
     const char* name;
     int thickness, layers;
     double temperature;
@@ -38,20 +38,20 @@ struct Stack {
     bool slides = false; ///< in contact
     bool spring = false; ///< holds the top plane
 };
-constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},
-                            {"deep", 62, 2, 0.0},
-                            {"warm", 32, 3, 300.0},
-                            {"lattice", 6, 0, 0.0},
-                            {"finite", 32, 3, 0.0, true},
-                            {"finite lattice", 6, 0, 0.0, true},
-                            {"atoms", 32, 3, 0.0, false, true},
-                            {"types", 32, 3, 0.0, false, true, true},
-                            {"sliding", 32, 3, 0.0, false, false, false, true},
-                            {"sliding over atoms", 32, 3, 0.0, false, true, false, true},
-                            {"spring", 32, 3, 0.0, false, false, false, false, true}};
-void PrintTo(const Stack& s, std::ostream* out) { *out << s.name; }
+constexpr Body stacks[] = {{"shallow", 32, 3, 0.0},
+                           {"deep", 62, 2, 0.0},
+                           {"warm", 32, 3, 300.0},
+                           {"lattice", 6, 0, 0.0},
+                           {"finite", 32, 3, 0.0, true},
+                           {"finite lattice", 6, 0, 0.0, true},
+                           {"atoms", 32, 3, 0.0, false, true},
+                           {"types", 32, 3, 0.0, false, true, true},
+                           {"sliding", 32, 3, 0.0, false, false, false, true},
+                           {"sliding over atoms", 32, 3, 0.0, false, true, false, true},
+                           {"spring", 32, 3, 0.0, false, false, false, false, true}};
+void PrintTo(const Body& s, std::ostream* out) { *out << s.name; }
 
-Surface surface_of(const Stack& stack, const char* name) {
+Surface surface_of(const Body& stack, const char* name) {
     Surface surface = test::reference_surface(name);
     if (stack.atoms) surface = test::disordered(surface);
     if (stack.types)
@@ -60,20 +60,20 @@ Surface surface_of(const Stack& stack, const char* name) {
     return surface;
 }
 
-InterfaceOptions interface_of(const Stack& stack) {
+InterfaceOptions interface_of(const Body& stack) {
     InterfaceOptions options = test::paper_interface();
     options.slides = stack.slides;
     if (stack.types) options.by_type = {options.potential, Morse{0.05, 1.7, 3.4, 10.0}};
     return options;
 }
 
-BlockOptions block_of(const Stack& stack) {
+BlockOptions block_of(const Body& stack) {
     BlockOptions options = test::paper_block(32, stack.thickness, stack.layers);
     options.finite_strain = stack.finite;
     return options;
 }
 
-SimulationOptions options_of(const Stack& stack) {
+SimulationOptions options_of(const Body& stack) {
     SimulationOptions options;
     options.block = block_of(stack);
     options.interface = interface_of(stack);
@@ -92,7 +92,7 @@ SimulationOptions options_of(const Stack& stack) {
     return options;
 }
 
-Trace run(const Stack& stack, const Communicator& ranks) {
+Trace run(const Body& stack, const Communicator& ranks) {
     const SimulationOptions options = options_of(stack);
     const Surface surface = surface_of(stack, "c3_N32_T32_rms1.5");
     test::Driven s(options, surface, ranks, test::grid_for(options.block, ranks));
@@ -105,7 +105,7 @@ Trace run(const Stack& stack, const Communicator& ranks) {
 }
 
 /// The state below a block that has been pushed about.
-Trace relaxation(const Stack& stack, const Communicator& ranks) {
+Trace relaxation(const Body& stack, const Communicator& ranks) {
     const SimulationOptions options = options_of(stack);
     const Surface surface = surface_of(stack, "c4_N32_T16_rms3");
     Block block(options.block, ranks, test::grid_for(options.block, ranks));
@@ -139,12 +139,12 @@ void expect_same(const Trace& mine, const Trace& expected) {
     EXPECT_EQ(mine.records, expected.records);
 }
 
-class SameBits : public testing::TestWithParam<Stack> {};
+class SameBits : public testing::TestWithParam<Body> {};
 
 } // namespace
 
 TEST_P(SameBits, OfARunOnAnyRanksAndThreads) {
-    const Stack& stack = GetParam();
+    const Body& stack = GetParam();
     const Trace expected = from_root([&] {
         const test::Threads one(1);
         return run(stack, Communicator());
@@ -161,7 +161,7 @@ TEST_P(SameBits, OfARunOnAnyRanksAndThreads) {
 }
 
 TEST_P(SameBits, OfARelaxationOnAnyRanksAndThreads) {
-    const Stack& stack = GetParam();
+    const Body& stack = GetParam();
     if (stack.temperature > 0.0 || stack.finite)
         return; // no other block than the shallow one; none
     const Trace expected = from_root([&] {
@@ -181,7 +181,7 @@ TEST_P(SameBits, OfARelaxationOnAnyRanksAndThreads) {
 INSTANTIATE_TEST_SUITE_P(Stacks, SameBits, testing::ValuesIn(stacks));
 
 TEST(SameBits, TheStacksAreCutAsIntended) {
-    const auto levels = [](const Stack& s) { return level_shapes(options_of(s).block).size(); };
+    const auto levels = [](const Body& s) { return level_shapes(options_of(s).block).size(); };
     ASSERT_EQ(levels(stacks[0]), 3u);
     ASSERT_EQ(levels(stacks[1]), 5u);
     if (world().size() == 3) {

@@ -23,7 +23,8 @@ using namespace asperity;
 
 namespace {
 
-constexpr double a = 2.6, area = a * a;
+using test::paper::a;
+constexpr double area = a * a;
 const ExponentialWall law(0.7, 1.3, 24.0);
 constexpr int sites = 16;
 

@@ -19,7 +19,7 @@
 namespace asperity {
 namespace {
 
-struct Solids {
+struct AtStart {
     const Case setup;
     Communicator ranks;
     ProcessGrid grid;
@@ -27,21 +27,22 @@ struct Solids {
     Interface interface;
     Block block;
 
-    explicit Solids(const std::string& text)
+    explicit AtStart(const std::string& text)
         : setup(read_case_text(text, "start.toml")), grid(setup.grid(0)),
           surface(surface_of(setup)),
           interface(surface, grid.tile(0), setup.scene.surface.spacing, setup.simulation.interface),
           block(setup.simulation.block, ranks, grid) {}
 };
 
-const std::string rough = "[surface]\nsites = 32\nrms = 0.7\n";
+const std::string rough_scene = "[surface]\nsites = 32\nrms = 0.7\n";
 
 TEST(ApproachStart, TheBlockWouldHaveYieldedByNoMoreThanItsShare) {
-    for (const std::string& text : {rough, rough + "seed = 3\n[interface]\ntail = true\n",
-                                    std::string("[surface]\nsites = 48\nrms = 1\nradius = 300\n"),
-                                    std::string("[surface]\nkind = \"flat\"\nsites = 16\n")}) {
+    for (const std::string& text :
+         {rough_scene, rough_scene + "seed = 3\n[interface]\ntail = true\n",
+          std::string("[surface]\nsites = 48\nrms = 1\nradius = 300\n"),
+          std::string("[surface]\nkind = \"flat\"\nsites = 16\n")}) {
         SCOPED_TRACE(text);
-        Solids c(text);
+        AtStart c(text);
         const ApproachStart start = approach_start(c.block, c.interface);
         EXPECT_LT(start.height, c.interface.start_height());
         EXPECT_LT(start.energy, 0.0);
@@ -73,7 +74,7 @@ TEST(ApproachStart, TheBlockWouldHaveYieldedByNoMoreThanItsShare) {
 }
 
 TEST(ApproachStart, IsOutOfReachWhereNothingAttracts) {
-    Solids c(rough + "[interface]\nepsilon = 1e-9\n");
+    AtStart c(rough_scene + "[interface]\nepsilon = 1e-9\n");
     InterfaceOptions none = c.setup.simulation.interface;
     std::get<LennardJones>(none.potential).epsilon = 0.0;
     const Interface nothing(c.surface, c.grid.tile(0), c.setup.scene.surface.spacing, none);
@@ -85,7 +86,7 @@ TEST(ApproachStart, IsOutOfReachWhereNothingAttracts) {
 
 TEST(ApproachStart, WorksAreThoseOfThePathFromOutOfReach) {
     const io::Scratch scratch;
-    Solids c(rough + "[drive]\nvelocity = 10\ndamping = 0.2\ntimestep = 20\n");
+    AtStart c(rough_scene + "[drive]\nvelocity = 10\ndamping = 0.2\ntimestep = 20\n");
     const io::Json result = test::run_scene(c.setup, scratch / "run");
     test::Driven s(c.setup.simulation, c.surface, c.ranks, c.grid);
     s.start(c.interface.start_height());
@@ -103,10 +104,10 @@ TEST(ApproachStart, WorksAreThoseOfThePathFromOutOfReach) {
 
 TEST(ApproachStart, AWarmBlockStartsOutOfReach) {
     const io::Scratch scratch;
-    const std::string once = rough + "[drive]\ndamping = 1\ntimestep = 10\nmax_steps = 1\n"
-                                     "path = [\"approach\"]\n";
+    const std::string once = rough_scene + "[drive]\ndamping = 1\ntimestep = 10\nmax_steps = 1\n"
+                                           "path = [\"approach\"]\n";
     for (const double temperature : {0.0, 300.0}) {
-        Solids c(once + "temperature = " + std::to_string(temperature) + "\n");
+        AtStart c(once + "temperature = " + std::to_string(temperature) + "\n");
         const io::Json result = test::run_scene(c.setup, scratch / std::to_string(temperature));
         const double energy = test::number(result, "energy.interface");
         EXPECT_EQ(energy == 0.0, temperature > 0.0) << temperature;

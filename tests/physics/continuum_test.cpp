@@ -19,7 +19,7 @@ using namespace asperity;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Real = long double;
 
 /// Displacements (U, w) and tractions, over q, of one of the four solutions of a layer at z: the

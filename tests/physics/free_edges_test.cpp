@@ -19,7 +19,7 @@ using namespace asperity;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A half-space of contact modulus E* over N x N sites of a box with this edge.
 BlockOptions free_block(int sites, double edge, double modulus, double poisson = 0.3,

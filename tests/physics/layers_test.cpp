@@ -20,17 +20,17 @@ using namespace asperity;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 WavePhase phase(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 /// Returns the frictionless stiffness of a wave per area, eV/Å^4; qx, qy in 1/Å.
-double normal_stiffness(const BlockOptions& o, double qx, double qy = 0.0) {
+double lattice_stiffness(const BlockOptions& o, double qx, double qy = 0.0) {
     const SurfaceMatrix s = o.stiffness(phase(qx * o.spacing), phase(qy * o.spacing));
     return 1.0 / (inverse(s).zz * o.spacing * o.spacing);
 }
 
-BlockOptions half_space(double young, double poisson) {
+BlockOptions deep_block(double young, double poisson) {
     BlockOptions o;
     o.young = young;
     o.poisson = poisson;
@@ -60,7 +60,7 @@ TEST(Layers, AreTheElimination) {
              {std::pair{1, 0}, {3, 1}, {8, 8}, {20, 3}, {31, 30}, {32, 32}}) {
             const double dq = 2.0 * pi / (o.sites * o.spacing);
             const double wanted = test::layered_stiffness(nx * dq, ny * dq, plain, o.spacing);
-            EXPECT_NEAR(normal_stiffness(o, nx * dq, ny * dq), wanted, 1e-10 * wanted)
+            EXPECT_NEAR(lattice_stiffness(o, nx * dq, ny * dq), wanted, 1e-10 * wanted)
                 << "case " << n << ", wave " << nx << ", " << ny;
         }
     }
@@ -75,11 +75,11 @@ TEST(Layers, CoatTheHalfSpace) {
     for (const Row& row : {Row{0.1, 1.086, 0.725}, Row{0.3, 1.215, 0.468}, Row{1.0, 2.715, 0.208},
                            Row{3.0, 9.074, 0.106}, Row{10.0, 10.0, 0.1}})
         for (const double ratio : {10.0, 0.1}) {
-            BlockOptions o = half_space(0.5, 0.3);
+            BlockOptions o = deep_block(0.5, 0.3);
             constexpr int cells = 32;
             o.layers = {{{ratio * o.young, 0.3}, cells * o.spacing}};
             const double q = row.qt / (cells * o.spacing);
-            const double found = normal_stiffness(o, q) / (0.5 * o.contact_modulus() * q);
+            const double found = lattice_stiffness(o, q) / (0.5 * o.contact_modulus() * q);
             const double wanted = ratio > 1.0 ? row.stiff : row.soft;
             EXPECT_NEAR(found, wanted, 0.005 * wanted) << "q t = " << row.qt << ", " << ratio;
         }
@@ -91,7 +91,7 @@ namespace {
 /// depth that a wave of `period` cells feels is graded.
 template <class Modulus>
 BlockOptions graded(double poisson, int period, const Modulus& modulus) {
-    BlockOptions o = half_space(1.0, poisson);
+    BlockOptions o = deep_block(1.0, poisson);
     const int cells = 5 * period;
     for (int k = 0; k < cells; ++k)
         o.layers.push_back({{modulus((k + 0.5) * o.spacing), poisson}, o.spacing});
@@ -108,7 +108,7 @@ TEST(Layers, OfAModulusThatGrowsAsAPower) {
         const auto compliance = [&](int period) {
             const BlockOptions o =
                 graded(0.3, period, [&](double z) { return 0.01 * std::pow(z, k); });
-            return 1.0 / normal_stiffness(o, 2.0 * pi / (period * o.spacing));
+            return 1.0 / lattice_stiffness(o, 2.0 * pi / (period * o.spacing));
         };
         const double first = compliance(64), second = compliance(128), third = compliance(256);
         const double exponent = std::log2((third - second) / (second - first));
@@ -125,7 +125,7 @@ TEST(Layers, OfGibsonAreABedOfSpringsIfIncompressible) {
         const auto compliance = [&](int period) {
             const BlockOptions o =
                 graded(poisson, period, [&](double z) { return 2.0 * (1.0 + poisson) * m * z; });
-            return 2.0 * m / normal_stiffness(o, 2.0 * pi / (period * o.spacing));
+            return 2.0 * m / lattice_stiffness(o, 2.0 * pi / (period * o.spacing));
         };
         const double once = compliance(96), thrice = compliance(288);
         const double grows = (1.0 - 2.0 * poisson) / (1.0 - poisson) * std::log(3.0);
@@ -166,7 +166,7 @@ TEST(Layers, AreSpringsInSeriesForTheUniformWave) {
     EXPECT_NEAR(s.zz * normal, 1.0, 1e-14);
     EXPECT_NEAR(s.xx * shear, 1.0, 1e-14);
     // As the wave grows, its stiffness becomes that of the uniform one.
-    const double long_wave = normal_stiffness(o, 1e-4 / o.spacing) * o.spacing * o.spacing;
+    const double long_wave = lattice_stiffness(o, 1e-4 / o.spacing) * o.spacing * o.spacing;
     EXPECT_NEAR(long_wave, s.zz, 1e-4 * s.zz);
 }
 

@@ -19,7 +19,8 @@ namespace asperity {
 namespace {
 
 constexpr int n = 12;
-constexpr double a = 2.6, epsilon = 0.1, r0 = 3.28, cutoff = 4.0 * r0;
+using test::paper::a, test::paper::r0;
+constexpr double epsilon = 0.1, cutoff = 4.0 * r0;
 
 struct Sum {
     double energy = 0.0;

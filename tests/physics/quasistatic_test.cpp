@@ -50,7 +50,7 @@ struct Cycle {
 void PrintTo(const Cycle& c, std::ostream* out) { *out << c.name; }
 
 constexpr const char *rough_32 = "c3_N32_T32_rms1.5", *rough_64 = "c7_N64_T64_rms2";
-constexpr auto top = Constraint::Of::top, height = Constraint::Of::mean_height;
+using test::held::top, test::held::height;
 const Cycle cycles[] = {
     {"atoms", rough_32, 32, 200, top, nullptr, 1.0, 0.0, 0.1},
     {"smeared wall", rough_32, 32, 200, top, &smeared, 1.0, 0.0, 0.1},

@@ -24,9 +24,9 @@ using namespace asperity;
 
 namespace {
 
-constexpr auto top = Constraint::Of::top, height = Constraint::Of::mean_height;
+using test::held::top, test::held::height, test::points_of;
 const std::vector<Branch> two = {{1.5, 1000.0}, {0.5, 20000.0}}; // fs
-const ExponentialWall hard(0.7, 1.3, 1000.0);
+const ExponentialWall hard_law(0.7, 1.3, 1000.0);
 
 BlockOptions relaxing(int sites, int thickness, const std::vector<Branch>& branches) {
     BlockOptions o = test::paper_block(sites, thickness, 0);
@@ -50,17 +50,6 @@ QuasistaticPath path_of(test::PathCase& c, double velocity, double tolerance, do
     p.scales = test::paper_scales();
     p.velocity = velocity;
     return {c.block, c.interface, p};
-}
-
-/// Its points, to the end of what has begun.
-std::vector<StepRecord> points_of(QuasistaticPath& path) {
-    std::vector<StepRecord> points = {path.now()};
-    for (auto o = QuasistaticPath::Outcome::point; o == QuasistaticPath::Outcome::point;) {
-        o = path.advance();
-        points.push_back(path.now());
-        if (points.size() > 20000) throw std::runtime_error("no end");
-    }
-    return points;
 }
 
 std::vector<StepRecord> lead(QuasistaticPath& path, double to) {
@@ -344,7 +333,7 @@ TEST(Rate, SlowAndFastPathsAreElasticOnes) {
         for (const bool wall : {false, true}) {
             const Surface rough = test::self_affine(16, 0.5);
             const auto case_of = [&](const BlockOptions& o) {
-                return wall ? std::make_unique<test::PathCase>(o, rough, hard)
+                return wall ? std::make_unique<test::PathCase>(o, rough, hard_law)
                             : std::make_unique<test::PathCase>(o, rough);
             };
             const BlockOptions block = relaxing(16, 4, one);
@@ -373,7 +362,7 @@ TEST(Rate, SlowAndFastPathsAreElasticOnes) {
 TEST(Rate, WorkIsEnergyPlusWhatTheBlockTook) {
     std::vector<double> stated;
     for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
-        test::PathCase c(relaxing(16, 4, two), test::self_affine(16, 0.5), hard);
+        test::PathCase c(relaxing(16, 4, two), test::self_affine(16, 0.5), hard_law);
         QuasistaticPath path = path_of(c, 1e-3, tolerance, 0.25, top);
         path.start();
         double uncertainty = 0.0;
@@ -406,7 +395,7 @@ TEST(Rate, WorkIsEnergyPlusWhatTheBlockTook) {
 TEST(Rate, ASmallOscillationLosesByTheLossModulus) {
     const double u0 = 0.01, pi = std::numbers::pi;
     for (const double period : {2000.0, 8000.0, 60000.0}) { // fs
-        test::PathCase c(relaxing(4, 4, two), test::flat_surface(4), hard);
+        test::PathCase c(relaxing(4, 4, two), test::flat_surface(4), hard_law);
         const double velocity = 4.0 * u0 / period;
         const double pressed = -2.0 - c.interface.start_height();
         c.block.constrain(Constraint::top(pressed));

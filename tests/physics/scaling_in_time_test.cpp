@@ -6,6 +6,7 @@
 // four), which leave the bits of all arithmetic alone but for sums over the sites, whose terms are
 // rounded to a quantum of 2^-50 Å, eV or eV/Å (kernels/exact_sum.hpp). With factors of energy alone
 // the heights of the path are therefore the same bits.
+#include "support/factors.hpp"
 #include "support/run_scene.hpp"
 
 #include <fmt/format.h>
@@ -20,19 +21,13 @@ using namespace asperity;
 
 namespace {
 
-struct Factors {
-    double length = 1.0, energy = 1.0;
-    double time() const { return length / std::sqrt(energy); }
-    double force() const { return energy / length; }
-    double pressure() const { return energy / (length * length * length); }
-    double surface() const { return energy / (length * length); }
-};
+using test::Factors;
 
-enum class Solids { lattice, levels, sphere };
+enum class Contact { lattice, levels, sphere };
 
-std::string text(Solids kind, const Factors& f) {
+std::string text(Contact kind, const Factors& f) {
     const double a = f.length;
-    const bool sphere = kind == Solids::sphere;
+    const bool sphere = kind == Contact::sphere;
     std::string s = fmt::format(
         "[surface]\nsites = 16\nspacing = {}\n{}[block]\nyoung = {}\nmodel = \"{}\"\nthickness = "
         "16\n"
@@ -42,7 +37,7 @@ std::string text(Solids kind, const Factors& f) {
         2.6 * a,
         sphere ? fmt::format("kind = \"flat\"\nradius = {}\n", 128.0 * a)
                : fmt::format("rms = {}\nrolloff = 2\n", 0.5 * a),
-        64.0 * f.pressure(), kind == Solids::lattice ? "lattice" : "multiscale",
+        64.0 * f.pressure(), kind == Contact::lattice ? "lattice" : "multiscale",
         128.0 * a / f.time(), 16.0 * f.time(), 0.5 / f.time(), 0.5 * f.time(),
         256.0 * f.pressure());
     s += fmt::format("epsilon = {}\nr0 = {}\ncutoff = {}\n", 0.125 * f.energy, 3.25 * a, 8.0 * a);
@@ -68,7 +63,7 @@ void expect_scaled(const test::Written& one, const test::Written& other, const c
 
 } // namespace
 
-class ScalingInTime : public testing::TestWithParam<Solids> {};
+class ScalingInTime : public testing::TestWithParam<Contact> {};
 
 TEST_P(ScalingInTime, PathsHaveTheSameMantissas) {
     const test::Written one(text(GetParam(), {}));
@@ -95,4 +90,4 @@ TEST_P(ScalingInTime, PathsHaveTheSameMantissas) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ScalingInTime,
-                         testing::Values(Solids::lattice, Solids::levels, Solids::sphere));
+                         testing::Values(Contact::lattice, Contact::levels, Contact::sphere));

@@ -5,6 +5,7 @@
 // and all energies times b, each dimensionless number of a result is the same, and the work for it
 // too. Powers of two leave the bits of most of the arithmetic alone; others ask for the accuracy
 // that is stated.
+#include "support/factors.hpp"
 #include "support/path_case.hpp"
 #include "support/run_scene.hpp"
 
@@ -22,11 +23,7 @@ using namespace asperity;
 
 namespace {
 
-struct Factors {
-    double length = 1.0, energy = 1.0;
-    double pressure() const { return energy / (length * length * length); }
-    double surface() const { return energy / (length * length); } ///< energy for each area
-};
+using test::Factors;
 
 /// A scene of 16 sites with rubber or a solid over atoms or a wall.
 struct Scenes {

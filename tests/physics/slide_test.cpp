@@ -19,7 +19,7 @@ using namespace asperity;
 namespace {
 
 using std::numbers::pi;
-constexpr auto top = Constraint::Of::top, height = Constraint::Of::mean_height;
+using test::held::top, test::held::height, test::points_of;
 
 InterfaceOptions sliding_over(const WallLaw& wall) {
     InterfaceOptions o = test::over(wall);
@@ -28,14 +28,14 @@ InterfaceOptions sliding_over(const WallLaw& wall) {
 }
 
 /// A frictionless block over a wall on which it can slide.
-struct Slider {
+struct OnWall {
     BlockOptions options;
     Surface surface;
     ProcessGrid grid;
     Interface interface;
     SpectralBlock block;
 
-    Slider(const BlockOptions& o, Surface s, const WallLaw& wall)
+    OnWall(const BlockOptions& o, Surface s, const WallLaw& wall)
         : options(o), surface(std::move(s)), grid(test::serial_grid(o)),
           interface(surface, grid.tile(0), o.spacing, sliding_over(wall)),
           block(o, Communicator(), true) {}
@@ -61,17 +61,6 @@ BlockOptions block_of(int sites, int thickness, const std::vector<Branch>& branc
     BlockOptions o = test::paper_block(sites, thickness, 0);
     o.branches = branches;
     return o;
-}
-
-/// Makes all points of a segment that was begun.
-std::vector<StepRecord> points_of(QuasistaticPath& path) {
-    std::vector<StepRecord> points = {path.now()};
-    for (auto o = QuasistaticPath::Outcome::point; o == QuasistaticPath::Outcome::point;) {
-        o = path.advance();
-        points.push_back(path.now());
-        if (points.size() > 2000) throw std::runtime_error("no end");
-    }
-    return points;
 }
 
 Segment slide(int axis, double by, std::optional<double> load = {}) {
@@ -100,7 +89,7 @@ TEST(SlideOverWall, FrictionOfOneWaveIsThatOfTheLossModulus) {
     };
     for (const auto& [kx, ky, axis] : {Way{1, 0, 0}, Way{0, 1, 1}, Way{1, -1, 0}, Way{-1, 1, 1}})
         for (double decade = -3.0; decade <= 3.0; decade += axis == 0 && ky == 0 ? 1.0 : 3.0) {
-            Slider c(block_of(sites, 4 * sites, branches), wave(sites, kx, ky, h),
+            OnWall c(block_of(sites, 4 * sites, branches), wave(sites, kx, ky, h),
                      ExponentialWall(0.0, 1.0, 1e5));
             const double unit = 2.0 * pi / c.edge(), q = unit * std::hypot(kx, ky),
                          along = unit * (axis == 0 ? kx : ky);
@@ -155,7 +144,7 @@ TEST(SlideOverWall, WorkOfASlowCoarseWaveIsOfFourthOrder) {
     for (const int sites : {8, 16}) {
         BlockOptions o = block_of(sites, 4 * sites, {{2.0, tau}});
         o.continuum = true;
-        Slider c(o, wave(sites, 1, 0, h), ExponentialWall(0.0, 1.0, 1e5));
+        OnWall c(o, wave(sites, 1, 0, h), ExponentialWall(0.0, 1.0, 1e5));
         const double q = 2.0 * pi / c.edge(), modulus = c.options.contact_modulus();
         const double area = c.edge() * c.edge(), a = c.options.spacing;
         const double pressure = 10.0 * 0.5 * modulus * q * h;
@@ -179,7 +168,7 @@ TEST(SlideOverWall, FrictionOfOneWaveIsReachedFromRest) {
     const double tau = 1e4;
     const int sites = 32;
     const double h = 0.3;
-    Slider c(block_of(sites, 4 * sites, {{2.0, tau}}), wave(sites, 1, 0, h),
+    OnWall c(block_of(sites, 4 * sites, {{2.0, tau}}), wave(sites, 1, 0, h),
              ExponentialWall(0.0, 1.0, 1e5));
     const double q = 2.0 * pi / c.edge(), v = 0.7 / (q * tau), area = c.edge() * c.edge();
     const double modulus = c.options.contact_modulus();
@@ -202,7 +191,7 @@ TEST(SlideOverWall, UntilSteadyItBeginsWithTheFrictionOfTheClosedForm) {
     const double h = 0.3;
     for (const int axis : {0, 1})
         for (const double omega : {-1e-2 / tau, 1.0 / tau, 1e3 / tau}) { // below 0: backwards
-            Slider c(block_of(sites, 4 * sites, branches),
+            OnWall c(block_of(sites, 4 * sites, branches),
                      axis == 0 ? wave(sites, 1, 0, h) : wave(sites, 0, 1, h),
                      ExponentialWall(0.0, 1.0, 1e5));
             const double q = 2.0 * pi / c.edge(), area = c.edge() * c.edge();
@@ -247,7 +236,7 @@ TEST(SlideOverWall, UntilSteadyItBeginsWhereALongSlideComes) {
     for (const double adhesion : {0.0, 0.02}) {
         double friction[2] = {}, contact[2] = {};
         for (const bool settled : {false, true}) {
-            Slider c(block_of(sites, sites, {{4.0, tau}}), hills,
+            OnWall c(block_of(sites, sites, {{4.0, tau}}), hills,
                      ExponentialWall(adhesion, 1.5, 50.0));
             const double load = 0.01 * c.options.contact_modulus() * c.edge() * c.edge();
             QuasistaticPath path = c.path(2.0 / tau, 2e-6, 0.5);
@@ -282,7 +271,7 @@ TEST(SlideOverWall, WorkIsWhatTheBlockAndInstabilitiesLose) {
     for (const double adhesion : {0.0, 0.05})
         for (const bool loaded : {false, true})
             for (const int axis : {0, 1}) {
-                Slider c(block_of(32, 32, {{3.0, tau}}), test::self_affine(32, 0.5),
+                OnWall c(block_of(32, 32, {{3.0, tau}}), test::self_affine(32, 0.5),
                          ExponentialWall(adhesion, 1.5, 50.0));
                 const double area = c.edge() * c.edge();
                 const double load = 0.01 * c.options.contact_modulus() * area;
@@ -311,7 +300,7 @@ TEST(SlideOverWall, WorkIsWhatTheBlockAndInstabilitiesLose) {
 TEST(SlideOverWall, AnElasticBlockWithoutAdhesionHasNoFriction) {
     for (const bool loaded : {false, true})
         for (const int axis : {0, 1}) {
-            Slider c(block_of(32, 32), test::self_affine(32, 0.5), ExponentialWall(0.0, 1.5, 50.0));
+            OnWall c(block_of(32, 32), test::self_affine(32, 0.5), ExponentialWall(0.0, 1.5, 50.0));
             const double load = 0.02 * c.options.contact_modulus() * c.edge() * c.edge();
             QuasistaticPath path = c.path(0.0, 1e-6, 0.2);
             path.start();
@@ -334,7 +323,7 @@ TEST(SlideOverWall, AnElasticBlockWithoutAdhesionHasNoFriction) {
 
 /// The force against the slide is the derivative of the energy along it.
 TEST(SlideOverWall, ForceIsTheDerivativeOfTheEnergy) {
-    Slider c(block_of(16, 16), test::self_affine(16, 0.5), ExponentialWall(0.0, 1.5, 50.0));
+    OnWall c(block_of(16, 16), test::self_affine(16, 0.5), ExponentialWall(0.0, 1.5, 50.0));
     QuasistaticPath path = c.path(0.0, 1e-8, 0.2);
     path.start();
     path.begin_to(0.3 - c.interface.start_height());
@@ -369,7 +358,7 @@ TEST(SlideOverWall, TheMapMovesExactly) {
                     s.height[static_cast<std::size_t>(y * n + x)] +=
                         cap_of(radius, (x - n / 2) * a, (y - n / 2) * a);
         }
-        Slider c(block_of(n, 8), s, ExponentialWall(0.0, 1.5, 50.0));
+        OnWall c(block_of(n, 8), s, ExponentialWall(0.0, 1.5, 50.0));
         const auto at = [&](int x, int y) {
             return s.height[static_cast<std::size_t>(((y + n) % n) * n + (x + n) % n)];
         };

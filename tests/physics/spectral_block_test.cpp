@@ -22,7 +22,7 @@ using namespace asperity;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 SurfaceMatrix stiffness(const BlockOptions& o, int nx, int ny) {
     return o.stiffness(wave_phase(nx, o.sites), wave_phase(ny, o.sites));

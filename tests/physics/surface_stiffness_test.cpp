@@ -22,7 +22,7 @@ using namespace asperity;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double lattice_ratio(const BlockOptions& o, double qx, double qy) {
     return test::surface_stiffness_ratio(qx, qy, o.thickness, o.spacing, o.lame(),

@@ -66,9 +66,9 @@ const std::vector<Known>& known() {
     return all;
 }
 
-constexpr double work = 0.7, range = 1.3, stiffness = 40.0;
+constexpr double law_work = 0.7, law_range = 1.3, law_stiffness = 40.0;
 
-ShapedWall law_of(const Known& k) { return {k.shape.shape(), work, range, stiffness}; }
+ShapedWall law_of(const Known& k) { return {k.shape.shape(), law_work, law_range, law_stiffness}; }
 
 double at_rest(const ShapedWall& law, double gap, double target, double spring) {
     return ShapedWall::Terms<double>(law).equilibrium(gap, target, spring);
@@ -82,16 +82,16 @@ TEST(WallShape, FollowsItsFormula) {
         const ShapedWall law = law_of(k);
         const ShapedWall::Shape shape = k.shape.shape();
         // Of a law over a linear repulsion A is a little less than the work.
-        const double depth = shape.repels ? work : -law.energy(0.0);
+        const double depth = shape.repels ? law_work : -law.energy(0.0);
         const double tail = k.f(shape.last), whole = shape.repels ? -k.f(shape.minimum) : -k.f(0.0);
         for (double x = std::max(shape.first, 0.6); x < std::min(shape.last, 20.0); x *= 1.013) {
             if (x == 0.0) x = 1e-3;
             const double wanted = (k.f(x) - tail) / (whole + tail);
-            EXPECT_NEAR(law.energy(range * x) / depth, wanted, 2e-4 * (1.0 + std::abs(wanted)))
+            EXPECT_NEAR(law.energy(law_range * x) / depth, wanted, 2e-4 * (1.0 + std::abs(wanted)))
                 << k.name << " " << x;
         }
-        EXPECT_EQ(law.energy(range * shape.last * 1.001), 0.0);
-        EXPECT_EQ(law.force(range * shape.last * 1.001), 0.0);
+        EXPECT_EQ(law.energy(law_range * shape.last * 1.001), 0.0);
+        EXPECT_EQ(law.force(law_range * shape.last * 1.001), 0.0);
     }
 }
 
@@ -101,14 +101,14 @@ TEST(WallShape, IsAsDeepAsItSays) {
     for (const Known& k : known())
         for (const double part : {1.0, 0.3}) {
             const ShapedWall law = law_of(k).scaled(attracting(law_of(k).factor_of(part)));
-            EXPECT_NEAR(law.energy(law.deepest()), -part * work, 1e-12) << k.name;
+            EXPECT_NEAR(law.energy(law.deepest()), -part * law_work, 1e-12) << k.name;
             EXPECT_NEAR(law.force(law.deepest()), 0.0, 1e-9) << k.name;
             double least = 0.0, strongest = 0.0;
             for (double g = -1.0; g < 20.0; g += 1e-3) {
                 least = std::min(least, law.energy(g));
                 strongest = std::max(strongest, -law.force(g));
             }
-            EXPECT_NEAR(least, -part * work, 1e-5) << k.name;
+            EXPECT_NEAR(least, -part * law_work, 1e-5) << k.name;
             EXPECT_LE(strongest, law.largest_tension() * (1.0 + 1e-12)) << k.name;
             EXPECT_NEAR(strongest, law.largest_tension(), 1e-4 * strongest) << k.name;
         }
@@ -121,7 +121,8 @@ TEST(WallShape, DerivativesAreItsOwn) {
         const ShapedWall law = law_of(k);
         const ShapedWall::Shape shape = k.shape.shape();
         for (int row = 0; row + 1 < ShapedWall::rows; row += 7) {
-            const double from = range * shape.force[4 * row], to = range * shape.force[4 * row + 4];
+            const double from = law_range * shape.force[4 * row],
+                         to = law_range * shape.force[4 * row + 4];
             const double g = 0.5 * (from + to), h = 0.25 * (to - from);
             const double slope = (law.energy(g - h) - law.energy(g + h)) / (2.0 * h);
             const double size = std::abs(law.energy(g)) / h;
@@ -140,8 +141,9 @@ TEST(WallShape, WithAFactorItsForceIsItsSlope) {
     for (const Known& k : known()) {
         const ShapedWall law = law_of(k);
         const auto part = ShapedWall::Terms<double>(law).scaled(attracting(0.4));
-        const double h = 1e-7 * range;
-        for (const double g : {-0.01 * range, -0.0003 * range, 0.613 * range, 1.501 * range}) {
+        const double h = 1e-7 * law_range;
+        for (const double g :
+             {-0.01 * law_range, -0.0003 * law_range, 0.613 * law_range, 1.501 * law_range}) {
             if (k.shape.shape().repels && g < 0.0) continue;
             const double slope = (part.energy(g - h) - part.energy(g + h)) / (2.0 * h);
             EXPECT_NEAR(part.force(g), slope, 1e-5 * std::abs(slope) + 1e-8) << k.name << " " << g;
@@ -199,11 +201,11 @@ TEST(WallShape, SitesGoDownhill) {
 /// All values of a register are one number's.
 TEST(WallShape, WithManyRangesItIsAnExponential) {
     const WallShape shape = WallShape::power(100.0);
-    const ShapedWall law(shape.shape(), work, 100.0 * range, stiffness);
-    const ExponentialWall limit(work, range, stiffness);
+    const ShapedWall law(shape.shape(), law_work, 100.0 * law_range, law_stiffness);
+    const ExponentialWall limit(law_work, law_range, law_stiffness);
     for (double g = -0.5; g < 6.0; g += 0.1) {
-        EXPECT_NEAR(law.energy(g), limit.energy(g), 0.01 * work) << g;
-        EXPECT_NEAR(law.force(g), limit.force(g), 0.02 * work / range) << g;
+        EXPECT_NEAR(law.energy(g), limit.energy(g), 0.01 * law_work) << g;
+        EXPECT_NEAR(law.force(g), limit.force(g), 0.02 * law_work / law_range) << g;
     }
 }
 

@@ -23,8 +23,8 @@ using test::over;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double a = 2.6;
+using std::numbers::pi;
+using test::paper::a;
 const LennardJones pair{0.1, 3.28, 13.12};
 
 const WallShape power = WallShape::power(3.0), nine_three = WallShape::nine_three(),

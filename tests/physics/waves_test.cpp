@@ -21,7 +21,7 @@ using namespace asperity;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 using Shape = std::function<std::array<double, 3>(int x, int z)>; ///< displacement, Å
 

@@ -77,10 +77,10 @@ std::string scene(const char* surface, int layers, const std::string& drive) {
                        surface, layers, drive);
 }
 const char* const flat = "kind = \"flat\"";
-const char* const rough = "rms = 0.5\nseed = 4";
+const char* const rough_keys = "rms = 0.5\nseed = 4";
 
 TEST(Works, InTimeTheDrivesWorkAndTheLossesMakeTheState) {
-    for (const char* surface : {flat, rough})
+    for (const char* surface : {flat, rough_keys})
         for (const char* drive : {"velocity = 20\ntimestep = 20\ndamping = 0.05",
                                   "velocity = 20\ntimestep = 20\ndamping = 2",
                                   "velocity = 40\ntimestep = 20\ndamping = 0"}) {
@@ -110,13 +110,13 @@ TEST(Works, OfTheInterfaceOfFlatSurfacesIsTheStateWhateverIsLost) {
 
 TEST(Works, WithoutTimeTheDrivesWorkAndTheLossesMakeTheState) {
     const std::string drive = "mode = \"quasistatic\"\ncontrol = ";
-    const Path top(scene(rough, 96, drive + "\"top\""));
+    const Path top(scene(rough_keys, 96, drive + "\"top\""));
     top.expect_identities(0.02);
     EXPECT_GT(top("lost.cycle"), 0.5 * top.state());
     EXPECT_FALSE(top.holds("work_of_interface.approach")) << "the mean height jumps";
     EXPECT_FALSE(top.holds("work_of_interface.pull_off"));
 
-    const Path held(scene(rough, 96, drive + "\"mean-height\""));
+    const Path held(scene(rough_keys, 96, drive + "\"mean-height\""));
     held.expect_identities(0.02);
     // The works of both are the integral of the force over the mean height, which does not jump.
     const std::vector<double> force = held.series("force"), height = held.series("mean_height"),

@@ -31,10 +31,10 @@ using namespace asperity;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Contact modulus of the scenes below, GPa.
-constexpr double modulus = 10.0;
+constexpr double plane_modulus = 10.0;
 
 /// Returns a scene of a wall on a quasi-static path, of these lines of [surface], [interface] and
 /// [drive].
@@ -45,7 +45,7 @@ std::string scene_of(const std::string& surface, const std::string& interface,
         list += (list.empty() ? "\"" : ", \"") + segment + "\"";
     return fmt::format("[surface]\n{}\n[block]\nyoung = {}\npoisson = 0\n[interface]\nkind = "
                        "\"wall\"\n{}\n[drive]\nmode = \"quasistatic\"\n{}\npath = [{}]\n",
-                       surface, modulus, interface, drive, list);
+                       surface, plane_modulus, interface, drive, list);
 }
 
 /// Converts an energy per area, meV/Å^2, to GPa Å.
@@ -221,7 +221,7 @@ TEST(Yield, SphereYieldsAsRingsDo) {
           Part{24.0 / 8.16,
                {{30.0, 1.0, 13.625, 7.931, 113.75}, {100.0, 1.0, 39.95, 29.56, 1446.0}},
                0.015}}) {
-        const double ratio = hardness / modulus;
+        const double ratio = hardness / plane_modulus;
         const double radius = part.first_yield * a / (0.5 * pi * ratio);
         const double load = std::pow(pi, 3) * radius * radius * std::pow(ratio, 2) * hardness / 6.0;
         const double depth = pi * pi * radius * ratio * ratio / 4.0;
@@ -279,7 +279,7 @@ TEST(Yield, PullOffGrowsWithThePreload) {
     constexpr double hardness = 0.01, a = 10.0, om = 0.3;
     constexpr int n = 48;
     constexpr double edge = n * a, contact = 15.0 * a;
-    const double ratio = hardness / modulus, radius = contact / (12.83 * ratio);
+    const double ratio = hardness / plane_modulus, radius = contact / (12.83 * ratio);
     const double work = om * hardness * ratio * contact; // GPa Å
     const double load = pi * contact * contact * hardness;
     double pull_off = 0.0;
@@ -329,7 +329,7 @@ TEST(Yield, RoughMapIsThatOfAnotherSolver) {
                 {0.99, 0.99994, 0.96063, 2.16281e-04}},
                0.9982,
                0.9801}}) {
-        const double hardness = path.hardness * modulus;
+        const double hardness = path.hardness * plane_modulus;
         std::vector<std::string> segments = {"approach"};
         for (std::size_t i = 1; i < path.rows.size(); ++i)
             segments.push_back(load_of(1e3 * path.rows[i].part * hardness));
@@ -365,7 +365,7 @@ TEST(Yield, RoughMapIsThatOfAnotherSolver) {
 
 namespace {
 
-const std::string rough = "sites = 32\nspacing = 2\nrms = 1\nseed = 4";
+const std::string rough_section = "sites = 32\nspacing = 2\nrms = 1\nseed = 4";
 
 } // namespace
 
@@ -376,7 +376,7 @@ TEST(Yield, BooksOfCyclesBalance) {
     for (int i = 0; i < 3; ++i)
         for (const char* segment : {"approach", "load 200 MPa", "pull-off"})
             path.push_back(segment);
-    const test::Written run(scene_of(rough, "adhesion = 5\nrange = 2\nhardness = 0.8",
+    const test::Written run(scene_of(rough_section, "adhesion = 5\nrange = 2\nhardness = 0.8",
                                      "control = \"mean-height\"", path));
     ASSERT_EQ(run.json["segments"].size(), path.size());
     std::vector<double> plastic;
@@ -486,7 +486,7 @@ TEST(Yield, AreaIsTheLoadOverTheHardnessOverFourDecades) {
 TEST(Yield, SameHeightSetsNothingAnew) {
     const auto sets = [](const std::string& drive) {
         const test::Written run(
-            scene_of(rough, "adhesion = 0\nhardness = 0.5", drive,
+            scene_of(rough_section, "adhesion = 0\nhardness = 0.5", drive,
                      {"approach", "height 0.5 Å", "height 2 Å", "height 0.5 Å", "height 0.2 Å"}));
         std::vector<double> list;
         for (std::size_t i = 0; i < 5; ++i)
@@ -508,8 +508,9 @@ TEST(Yield, SameHeightSetsNothingAnew) {
 TEST(Yield, DentedSurfaceIsElasticUnderItsLoad) {
     const std::string drive = "control = \"mean-height\"";
     const std::vector<std::string> path = {"load 200 MPa"};
-    const test::Written dented(scene_of(rough, "adhesion = 0\nhardness = 0.5", drive, path) +
-                               "[output]\nfields = [\"segments\"]\n");
+    const test::Written dented(
+        scene_of(rough_section, "adhesion = 0\nhardness = 0.5", drive, path) +
+        "[output]\nfields = [\"segments\"]\n");
     EXPECT_GT(dented("yielding.largest_set"), 1.0);
     const test::Written again(scene_of(
         fmt::format("kind = \"file\"\nfile = \"{}/run.h5:/fields/segment-0/yielded_height\"\nsites "
@@ -527,8 +528,8 @@ TEST(Yield, HardIsElastic) {
     const std::vector<std::string> path = {"approach", "load 200 MPa", "pull-off"};
     for (const char* adhesion : {"adhesion = 0", "adhesion = 5\nrange = 2"}) {
         const std::string soft = std::string(adhesion) + "\nhardness = ";
-        const test::Written elastic(scene_of(rough, soft + "\"none\"", "", path)),
-            hard(scene_of(rough, soft + "\"1e7 GPa\"", "", path));
+        const test::Written elastic(scene_of(rough_section, soft + "\"none\"", "", path)),
+            hard(scene_of(rough_section, soft + "\"1e7 GPa\"", "", path));
         for (const char* column :
              {"force", "mean_height", "work", "elastic_energy", "contact_fraction", "dissipated"})
             EXPECT_EQ(elastic.series(column), hard.series(column)) << column;
@@ -541,7 +542,7 @@ TEST(Yield, HardIsElastic) {
 TEST(Yield, HardnessMayDifferFromSiteToSite) {
     const std::vector<std::string> path = {"approach", "load 200 MPa"};
     const auto run_of = [&](const std::string& hardness) {
-        return test::Written(scene_of(rough, "adhesion = 0\nhardness = " + hardness,
+        return test::Written(scene_of(rough_section, "adhesion = 0\nhardness = " + hardness,
                                       "control = \"mean-height\"", path));
     };
     const test::Written one = run_of("0.5"), uniform = run_of("\"rings 0.5 GPa 0 20\""),
@@ -564,7 +565,7 @@ TEST(Yield, ConvergesUpToTheHardness) {
     for (const auto& [ratio, slope, attracts] : {Map{0.01, 0.05, true}, Map{0.01, 0.4, false},
                                                  Map{0.3, 0.05, false}, Map{0.3, 0.4, true}}) {
         SCOPED_TRACE(fmt::format("{} {} {}", ratio, slope, attracts));
-        const double hardness = ratio * modulus;
+        const double hardness = ratio * plane_modulus;
         std::vector<std::string> path = {"approach"};
         for (const double part : {0.01, 0.3, 0.99})
             path.push_back(load_of(1e3 * part * hardness));
@@ -626,7 +627,7 @@ TEST(Yield, IsRefusedWhereItIsNotComputed) {
     const std::string wall = "adhesion = 0\nhardness = 0.5";
     const auto problems = [&](const std::string& drive, const std::vector<std::string>& path,
                               const std::string& more = "") {
-        return problems_of(scene_of(rough, wall, drive, path) + more);
+        return problems_of(scene_of(rough_section, wall, drive, path) + more);
     };
     EXPECT_EQ(problems("", {"approach", "load 499 MPa"}), "");
     const auto names = [](const std::string& text, const char* name) {
@@ -642,8 +643,8 @@ TEST(Yield, IsRefusedWhereItIsNotComputed) {
     names(problems_of("[surface]\nsites = 32\n[interface]\nhardness = 0.5\n"), "without a wall");
     names(problems_of("[surface]\nsites = 32\n[interface]\nkind = \"wall\"\nhardness = 0.5\n"),
           "dynamic");
-    names(problems_of(
-              scene_of(rough, "adhesion = 0\nhardness = \"stripes 0 1 GPa 20\"", "", {"approach"})),
+    names(problems_of(scene_of(rough_section, "adhesion = 0\nhardness = \"stripes 0 1 GPa 20\"", "",
+                               {"approach"})),
           "0 at some sites");
 }
 
@@ -651,8 +652,8 @@ TEST(Yield, IsRefusedWhereItIsNotComputed) {
 TEST(Yield, WholeSurfaceYieldsNoFurther) {
     const io::Scratch scratch;
     const Case c =
-        read_case_text(scene_of(rough, "adhesion = 0\nhardness = 0.05", "control = \"mean-height\"",
-                                {"approach", "height -4 Å"}),
+        read_case_text(scene_of(rough_section, "adhesion = 0\nhardness = 0.05",
+                                "control = \"mean-height\"", {"approach", "height -4 Å"}),
                        "yield.toml");
     RunOptions options;
     options.out = scratch / "run";

@@ -17,14 +17,14 @@ using namespace asperity;
 
 namespace {
 
-struct Flat {
+struct FlatContact {
     double cutoff, binding, separation; ///< r0; meV/Å^2; Å
 };
 /// Reference: lattice sums of the independent program, to all its digits.
-constexpr Flat flats[] = {{4.0, 98.86330213, 3.108052807},
-                          {3.0, 95.36179297, 3.108516390},
-                          {2.5, 90.14696074, 3.109148676},
-                          {2.0, 77.57820422, 3.114810519}};
+constexpr FlatContact flats[] = {{4.0, 98.86330213, 3.108052807},
+                                 {3.0, 95.36179297, 3.108516390},
+                                 {2.5, 90.14696074, 3.109148676},
+                                 {2.0, 77.57820422, 3.114810519}};
 
 struct Reference {
     const char* map;
@@ -67,7 +67,7 @@ class ReferenceCase : public testing::TestWithParam<Reference> {};
 } // namespace
 
 TEST(ZeroLoad, FlatOnFlatBindsAsTheTableSays) {
-    for (const Flat& flat : flats) {
+    for (const FlatContact& flat : flats) {
         const InterfaceOptions interface = test::paper_interface(flat.cutoff);
         const Surface surface = test::flat_surface(8);
         const BlockOptions lattice = test::paper_block(8, 6, 0),

@@ -4,19 +4,19 @@
 // The scenes of scenes/hard, run as a user runs them. Each file says in its head what stable means
 // for it; here it is held to that. With ASPERITY_LONG set they are followed at a tenth of the
 // speed.
+#include "support/cases.hpp"
 #include "support/run_scene.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 
 using namespace asperity;
 using test::number;
 
 namespace {
 
-const bool at_length = std::getenv("ASPERITY_LONG") != nullptr;
+using test::at_length;
 
 io::Json follow(const std::string& name) {
     Scene scene = read_scene(ASPERITY_SOURCE_DIR "/scenes/hard/" + name + ".toml");

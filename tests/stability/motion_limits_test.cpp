@@ -14,13 +14,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 
 using namespace asperity;
 
 namespace {
 
-const bool at_length = std::getenv("ASPERITY_LONG") != nullptr;
+using test::at_length;
 
 using test::free_contact;
 

@@ -12,12 +12,21 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <numbers>
 #include <random>
 #include <stdexcept>
 #include <string>
 
 namespace asperity::test {
+
+/// The paper's atoms.
+namespace paper {
+inline constexpr double a = 2.6, r0 = 3.28; ///< spacing, and distance of no force; Å
+}
+
+/// True if hard cases are followed at length.
+inline const bool at_length = std::getenv("ASPERITY_LONG") != nullptr;
 
 /// The paper's block (77.2 GPa, 0.42, 197 u, a = 2.6 Å). layers_per_level 0: the plain lattice.
 BlockOptions paper_block(int sites, int thickness, int layers_per_level);
@@ -56,7 +65,7 @@ void lead(Driven& s, const Look& look, bool observe = true) {
 Surface flat_surface(int sites);
 /// Its height at the atom (x, y), Å: height(x, y).
 template <class Height>
-Surface surface_from(int sites, const Height& height, double spacing = 2.6) {
+Surface surface_from(int sites, const Height& height, double spacing = paper::a) {
     Surface s = flat_surface(sites);
     s.length = sites * spacing;
     for (int y = 0; y < sites; ++y)
@@ -67,7 +76,7 @@ Surface surface_from(int sites, const Height& height, double spacing = 2.6) {
     return s;
 }
 /// One period of a cosine along x.
-inline Surface wave(int sites, double amplitude, double spacing = 2.6) {
+inline Surface wave(int sites, double amplitude, double spacing = paper::a) {
     return surface_from(
         sites, [=](int x, int) { return amplitude * std::cos(2.0 * std::numbers::pi * x / sites); },
         spacing);

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,21 @@ inline InterfaceOptions over(const WallLaw& wall) {
 }
 
 enum class Friction { with, without };
+/// What is held.
+namespace held {
+inline constexpr auto top = Constraint::Of::top, height = Constraint::Of::mean_height;
+}
+
+/// Makes all points of a segment that was begun.
+inline std::vector<StepRecord> points_of(QuasistaticPath& path) {
+    std::vector<StepRecord> points = {path.now()};
+    for (auto o = QuasistaticPath::Outcome::point; o == QuasistaticPath::Outcome::point;) {
+        o = path.advance();
+        points.push_back(path.now());
+        if (points.size() > 20000) throw std::runtime_error("no end");
+    }
+    return points;
+}
 
 /// A path that keeps the numbers of the last segment of each kind.
 class KeptPath : public QuasistaticPath {
