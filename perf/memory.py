@@ -21,8 +21,9 @@ import tempfile
 from scaling import mpirun
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+#: At a loose tolerance, for iterations take no memory of their own.
 STATE = {"surface.rms": 4, "surface.rolloff": 3, "drive.mode": "quasistatic", "drive.path": ["relax"], "output.fields": ["relaxed"],
-         "output.checkpoint": "none"}
+         "output.checkpoint": "none", "drive.tolerance": 0.5}
 WALL = STATE | {"interface.kind": "wall", "interface.adhesion": "50 mJ/m2"}
 PATH = {"drive.path": ["approach", "pull-off"], "drive.max_steps": 4, "output.fields": []}
 KINDS = {"wall": WALL, "atoms": STATE,

@@ -15,7 +15,7 @@ def run(scene: dict | os.PathLike, keys: dict[str, Any], place: pathlib.Path) ->
     """Returns the result in this directory, made now unless a whole one is there. Its scene is not compared with the one that is asked for."""
     if (place / "result.json").exists():
         result = asperity.load(place)
-        if not result.stopped:
+        if result.stopped in ("", "max_steps"):
             return result
         shutil.rmtree(place)
     return asperity.run(scene, keys, place, progress=False)
