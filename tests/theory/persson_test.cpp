@@ -249,10 +249,10 @@ void expect_solved(AdhesiveContact c, const std::string& what) {
         EXPECT_EQ(s.status, Status::adhesive) << fraction;
         EXPECT_TRUE(s.converged) << fraction;
         // On such a grid the answer is where γ_eff(ζ_1) crosses Δγ.
-        const Magnifications fine = magnifications(c, 0.08);
+        const std::vector<StressStep> fine = stress_steps(c, 0.02);
         const double step = s.gamma_ratio_error * c.work_of_adhesion;
         const auto excess = [&](double g0, double* area = nullptr) {
-            const StressPath path = stress_path(c, fine, g0, 640);
+            const StressPath path = stress_path(c, fine, g0, 16);
             if (area != nullptr) *area = path.area.back();
             return path.gamma.back() - c.work_of_adhesion;
         };
