@@ -3,12 +3,13 @@
 //
 // Eqs. (1) to (5): from a contact to a state, on grids each twice as fine as the one before.
 //
-// On each, g0 = γ_eff(1) is the root of γ_eff(ζ_1) = Δγ (stress_distribution.hpp), by Boost's TOMS
-// 748. It lies between two known ends. From below, at p <= 0, g0 > p²/(E* q_L), or the boundary
-// would start behind the load; at p > 0, g0 >= -U_full, because U_el never exceeds its value at
-// full contact. From above, g0 <= Δγ S(q1). At p <= 0 the unknown is ln(g0 - p²/E* q_L): near the
-// end of the branch γ_eff falls as the fourth power of A. At p = 0 no contact is always a solution;
-// the one wanted is the largest, so the search comes down from above.
+// On each, g0 = γ_eff(1) is the root of γ_eff(ζ_1) = Δγ (stress_distribution.hpp): on the first by
+// Boost's TOMS 748, on the others by secants from there. It lies between two known ends. From
+// below, at p <= 0, g0 > p²/(E* q_L), or the boundary would start behind the load; at p > 0, g0 >=
+// -U_full, because U_el never exceeds its value at full contact. From above, g0 <= Δγ S(q1). At p
+// <= 0 the unknown is ln(g0 - p²/E* q_L): near the end of the branch γ_eff falls as the fourth
+// power of A. At p = 0 no contact is always a solution; the one wanted is the largest, so the
+// search comes down from above.
 #include "theory/persson.hpp"
 
 #include <algorithm>
@@ -102,7 +103,7 @@ public:
                          : lowest_ + contact_.work_of_adhesion * std::exp(x);
     }
     /// Returns γ_eff(ζ_1)/Δγ - 1; under a load times the area.
-    double excess(double x, double* area = nullptr) {
+    [[nodiscard]] double excess(double x, double* area = nullptr) {
         const StressPath& found = path(g0(x));
         if (area != nullptr) *area = found.area.back();
         const double excess = found.gamma.back() / contact_.work_of_adhesion - 1;
@@ -111,7 +112,7 @@ public:
 
     /// Returns x of the largest g0, searched without a start. `missed`: the least excess if there
     /// is none.
-    std::optional<double> search(double& missed) {
+    [[nodiscard]] std::optional<double> search(double& missed) {
         missed = HUGE_VAL;
         if (!(highest_ > lowest_)) return std::nullopt;
         const auto f = [&](double x) { return excess(x); };
@@ -133,7 +134,7 @@ public:
         return pressing_ ? std::optional(0.0) : std::nullopt;
     }
     /// Returns x of the largest g0, next to the root on a coarser grid.
-    std::optional<double> search_near(double x, double& missed) {
+    [[nodiscard]] std::optional<double> search_near(double x, double& missed) {
         const auto f = [&](double y) { return excess(y); };
         const auto near = root_by_secants(f, x, 1e-4, 0.2, 1e-7);
         return near ? near : search(missed);
@@ -141,7 +142,7 @@ public:
 
     /// Returns the excess at the end of the adhesive branch: g0 at its lower end, or zero under a
     /// load. zero_load_x: at zero load the x to start from, and that of the excess.
-    double excess_at_end(double& zero_load_x) {
+    [[nodiscard]] double excess_at_end(double& zero_load_x) {
         if (!(highest_ > lowest_)) return 1.0; // pulled harder than even full contact bears
         if (pressing_) return excess(-lowest_ / (highest_ - lowest_));
         if (lowest_ > 0) return excess(std::log(1e-6 * lowest_ / contact_.work_of_adhesion));
