@@ -6,9 +6,9 @@
 //
 // Interpretation of the equations: σ_a² = γ_eff E* q with γ_eff < 0 counted as zero; U_el(ζ) in Eq.
 // (3) is the energy of roughness shorter than L/ζ; A* = A S with S named in area_factor.hpp. Eq.
-// (2) is solved by finite volumes (stress_distribution.hpp) on a coarse grid and on a grid twice as
-// fine in both directions; the difference is the reported error. A state usually takes less than
-// 0.1 s.
+// (2) is solved by finite differences (stress_distribution.hpp) on a coarse grid and on a grid
+// twice as fine in both directions; the difference is the reported error. A state usually takes 2
+// ms.
 #pragma once
 
 #include <string_view>

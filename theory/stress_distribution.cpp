@@ -1,126 +1,272 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The coordinate z = (σ + b)/ℓ, b = σ_a, keeps the absorbing boundary at z = 0 and the width of P
-// near one,
-//     ∂G/∂τ + ∂/∂z [ (db - z dℓ)/ℓ G ] = dT/(2ℓ²) ∂²G/∂z²,      G = ℓ P,
-// with ℓ² = T + ((b + p)/12)²: √T as long as P is near the boundary, and growing with its distance,
-// so that the cells (narrow at z = 0, ending at z = 20) always hold P. Fluxes are exponentially
-// fitted (Scharfetter and Gummel), steps those of Crank and Nicolson. The boundary at the end of a
-// step depends on the area that is left, which is found by the secant method. In a gap of the
-// spectrum only the boundary moves: P is then carried over by its cumulative sum.
+// In the frame of the boundary, z = σ + b with b = σ_a, Eq. (2) has constant coefficients during a
+// step from T to T + dT, in which b grows by db:
+//     ∂P/∂T = ½ ∂²P/∂z² - (db/dT) ∂P/∂z,   P = 0 at z = 0.
+// On the nodes z = h, 2h, ... the compact scheme of fourth order is
+//     (1 + δ²/12 - q δ/24) ∂P/∂T = [(1 + q²/12) δ² - q δ/2] P / (2h²),   q = 2h db/dT,
+// with the differences δP = P(z+h) - P(z-h) and δ²P = P(z+h) - 2P(z) + P(z-h). Crank-Nicolson steps
+// lead to equations with the same three coefficients at each node. Their matrix is exactly
+//     c (1 - s E)(1 - t/E),   E P(z) = P(z+h),
+// because P = 0 at z = 0: a sweep towards the boundary and a sweep away from it solve the
+// equations. The spacing h grows with the width √T of P: every other node is left out from time to
+// time.
+//
+// The boundary at the end of a step depends on the area that is left, which is found by the secant
+// method. While nothing reaches the boundary, P spreads freely; in a gap of the spectrum only the
+// boundary moves. P is then interpolated at the nodes above the new boundary.
 #include "theory/stress_distribution.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <optional>
 
 namespace asperity::theory {
 namespace {
 
-constexpr double out_of_reach = 9; ///< standard deviations: beyond it nothing is absorbed
+/// Standard deviations beyond which a normal distribution is neglected: 4e-11 of its area.
+constexpr double tail = 6.5;
+/// Smallest area that is computed.
+constexpr double least_area = 1e-30;
 
-double normal_below(double x) { return 0.5 * std::erfc(-x * (std::numbers::sqrt2 / 2)); }
-
-double bernoulli(double x) {
-    if (std::abs(x) < 1e-4) return 1 - x / 2 + x * x / 12;
-    return x / std::expm1(x);
-}
-
-/// Cells in z and the fraction of P in each.
-class StressCells {
+/// The distribution P at the nodes z = h, 2h, ... above the boundary, which is at the stress -b.
+class StressNodes {
 public:
-    explicit StressCells(int cells)
-        : count_(static_cast<std::size_t>(cells)), face_(count_ + 1), centre_(count_),
-          width_(count_), mass_(count_), left_(count_ + 1), right_(count_ + 1), next_(count_),
-          work_(count_) {
-        constexpr double z_end = 20, stretch = 2.5;
-        for (std::size_t k = 0; k <= count_; ++k)
-            face_[k] =
-                z_end * std::sinh(stretch * static_cast<double>(k) / cells) / std::sinh(stretch);
-        for (std::size_t k = 0; k < count_; ++k) {
-            centre_[k] = (face_[k] + face_[k + 1]) / 2;
-            width_[k] = face_[k + 1] - face_[k];
+    /// Starts with a normal distribution of variance T about the stress p.
+    StressNodes(double b, double p, double T, double h) : b_(b), p_(p), h_(h) {
+        resize(b, T);
+        for (std::size_t k = 0; k < P_.size(); ++k) {
+            const double from_p = static_cast<double>(k + 1) * h - b - p;
+            P_[k] = std::exp(-from_p * from_p / (2 * T)) / std::sqrt(2 * std::numbers::pi * T);
         }
     }
 
-    /// Starts with a normal distribution of the stress about p, seen from the boundary b.
-    void start(double b, double p, double T, double length) {
-        double before = normal_below((-b - p) / std::sqrt(T));
-        for (std::size_t k = 0; k < count_; ++k) {
-            const double upto = normal_below((face_[k + 1] * length - b - p) / std::sqrt(T));
-            mass_[k] = upto - before;
-            before = upto;
+    /// Makes room for a boundary up to b and a variance up to T, at the spacing h.
+    void make_room(double b, double T, double h) {
+        while (h_ < 0.75 * h) {
+            const double area_before = area();
+            for (std::size_t k = 0; 2 * k + 1 < P_.size(); ++k)
+                P_[k] = P_[2 * k + 1];
+            P_.resize(P_.size() / 2);
+            h_ *= 2;
+            resize(b, T);
+            scale_to(area_before);
         }
+        resize(b, T);
     }
 
-    /// Returns the area left after the boundary has moved by db, the length from l0 to l1 and the
-    /// variance by dT. The state does not change until accept().
-    double advance(double db, double l0, double l1, double dT) {
-        const double l2 = l0 * l1, D = dT / (2 * l2), dl = l1 - l0, l = std::sqrt(l2);
-        // Through face k flows left_[k] times the density on its left less right_[k] times that on
-        // its right. At z = 0 the density is zero, at the far end the flux is.
-        for (std::size_t k = 0; k < count_; ++k) {
-            const double h = k == 0 ? centre_[0] : centre_[k] - centre_[k - 1];
-            const double peclet = (db - face_[k] * dl) / l * h / D;
-            const double b = bernoulli(peclet);
-            left_[k] = k == 0 ? 0 : D / h * (b + peclet); // = bernoulli(-peclet)
-            right_[k] = D / h * b;
+    /// Returns the area left after the boundary has moved to b and the variance has grown by dT.
+    /// The state does not change until accept().
+    double advance(double b, double dT) {
+        const double r = dT / (4 * h_ * h_), q = 2 * h_ * (b - b_) / dT;
+        const double spread = r * (1 + q * q / 12), drift = r * q / 2;
+        // Coefficients of P(z-h), P(z) and P(z+h): of ∂P/∂T, before the step, after the step.
+        const double rate[] = {1. / 12 + q / 24, 10. / 12, 1. / 12 - q / 24};
+        const double before[] = {rate[0] + spread + drift, rate[1] - 2 * spread,
+                                 rate[2] + spread - drift};
+        const double after[] = {rate[0] - spread - drift, rate[1] + 2 * spread,
+                                rate[2] - spread + drift};
+        const double c = (after[1] + std::sqrt(after[1] * after[1] - 4 * after[0] * after[2])) / 2;
+        const double s = -after[2] / c, t = -after[0] / c;
+        const double below = before[0] / c, here = before[1] / c, above = before[2] / c;
+        // Each sweep has two recurrences side by side: a node depends on the next but one.
+        const std::size_t n = P_.size();
+        next_.resize(n);
+        double source_last = 0, last = 0, last_but_one = 0;
+        for (std::size_t k = n; k-- > 0;) {
+            const double source = (k > 0 ? below * P_[k - 1] : 0) + here * P_[k] +
+                                  (k + 1 < n ? above * P_[k + 1] : 0);
+            next_[k] = source + s * source_last + s * s * last_but_one;
+            source_last = source;
+            last_but_one = last;
+            last = next_[k];
         }
-        left_[count_] = right_[count_] = 0;
-        // The Thomas algorithm for the mass of each cell.
-        double super_before = 0, before = 0;
-        for (std::size_t k = 0; k < count_; ++k) {
-            const double diagonal = 1 + (left_[k + 1] + right_[k]) / (2 * width_[k]);
-            const double sub = k == 0 ? 0 : -left_[k] / (2 * width_[k - 1]);
-            const double super = k + 1 == count_ ? 0 : -right_[k + 1] / (2 * width_[k + 1]);
-            double rhs = mass_[k] * (2 - diagonal);
-            if (k > 0) rhs -= sub * mass_[k - 1];
-            if (k + 1 < count_) rhs -= super * mass_[k + 1];
-            const double pivot = 1 / (diagonal - sub * super_before);
-            work_[k] = super_before = super * pivot;
-            next_[k] = before = (rhs - sub * before) * pivot;
+        double sum = source_last = last = last_but_one = 0;
+        for (std::size_t k = 0; k < n; ++k) {
+            const double source = next_[k];
+            next_[k] = source + t * source_last + t * t * last_but_one;
+            source_last = source;
+            last_but_one = last;
+            last = next_[k];
+            sum += last;
         }
-        double area = next_[count_ - 1];
-        for (std::size_t k = count_ - 1; k-- > 0;) {
-            next_[k] -= work_[k] * next_[k + 1];
-            area += next_[k];
-        }
-        return area;
+        return area(sum, next_);
     }
-    void accept() { mass_.swap(next_); }
+    /// Takes over the state of the last advance(), whose boundary is b.
+    void accept(double b) {
+        P_.swap(next_);
+        b_ = b;
+    }
 
-    /// Transfers the same P to another boundary and length.
-    void carry_over(double b0, double l0, double b1, double l1) {
-        std::size_t k = 0;
-        double below = 0, previous = 0; // mass below face k, below the last new face
-        for (std::size_t m = 0; m < count_; ++m) {
-            const double z = (face_[m + 1] * l1 - b1 + b0) / l0; // the new face in old z
-            while (k < count_ && face_[k + 1] <= z)
-                below += mass_[k++];
-            double upto = below;
-            if (k < count_ && z > face_[k]) upto += mass_[k] * (z - face_[k]) / width_[k];
-            next_[m] = upto - previous;
-            previous = upto;
-        }
-        accept();
+    /// Moves the boundary to b at the same P, by cubic interpolation.
+    void move_boundary(double b) {
+        if (b == b_) return;
+        const double shift = (b - b_) / h_, whole = std::floor(shift), x = shift - whole;
+        const double weights[] = {-x * (1 - x) * (2 - x) / 6, (1 - x * x) * (2 - x) / 2,
+                                  x * (1 + x) * (2 - x) / 2, -x * (1 - x * x) / 6};
+        const double area_before = area();
+        next_.assign(P_.size(), 0);
+        for (std::size_t k = 0; k < next_.size(); ++k)
+            for (int j = 0; j < 4; ++j) {
+                const double from = static_cast<double>(k) - whole + 1 - j;
+                if (from >= 0 && from < static_cast<double>(P_.size()))
+                    next_[k] += weights[j] * P_[static_cast<std::size_t>(from)];
+            }
+        accept(b);
+        if (shift > 0) scale_to(area_before);
     }
 
 private:
-    std::size_t count_;
-    std::vector<double> face_, centre_, width_, mass_, left_, right_, next_, work_;
+    void resize(double b, double T) {
+        const double last = (std::max(b, b_) + p_ + tail * std::sqrt(T)) / h_;
+        P_.resize(static_cast<std::size_t>(std::max(last, 4.0)));
+    }
+    /// Returns ∫ P dz from the sum of P, by Gregory's rule: trapezoidal, corrected at the boundary.
+    [[nodiscard]] double area(double sum, const std::vector<double>& P) const {
+        return h_ * (sum + P[0] / 4 - P[1] / 8 + P[2] / 36);
+    }
+    [[nodiscard]] double area() const {
+        return area(std::accumulate(P_.begin(), P_.end(), 0.0), P_);
+    }
+    void scale_to(double wanted_area) {
+        if (const double now = area(); now > 0)
+            for (double& value : P_)
+                value *= wanted_area / now;
+    }
+
+    double b_, p_, h_;
+    std::vector<double> P_, next_;
+};
+
+StressStep between(const StressStep& a, const StressStep& b, double x) {
+    return {std::lerp(a.q, b.q, x), std::lerp(a.T, b.T, x), std::lerp(a.energy, b.energy, x),
+            std::lerp(a.stretch, b.stretch, x)};
+}
+
+/// The state at one magnification, which moves on to larger ones.
+class StressMarch {
+public:
+    StressMarch(const AdhesiveContact& contact, double g0) : contact_(contact), g0_(g0) {}
+
+    double area = 1, energy = 0, gamma = 0, b = 0; ///< A/A0, u, γ_eff, σ_a
+
+    /// Sets full contact at a magnification. Returns true if the boundary is out of reach.
+    bool set_full_contact(const StressStep& at) {
+        energy = at.energy;
+        set_boundary(at);
+        return out_of_reach(at);
+    }
+
+    /// Prepares for steps from full contact up to `last`. There are at least `nodes` nodes in √T
+    /// and at most twice as many.
+    void start(const StressStep& from, const StressStep& last, int nodes) {
+        set_full_contact(from);
+        T_last_ = last.T;
+        h_last_ = std::sqrt(last.T) / nodes;
+        stress_.emplace(b, contact_.pressure, from.T, spacing(from.T));
+    }
+
+    /// Moves on from one magnification to the next.
+    void advance(const StressStep& from, const StressStep& to) {
+        const double gamma0 = gamma;
+        const double gamma1 =
+            (g0_ + energy + (to.energy - from.energy) * energy_fraction(area, contact_.beta)) /
+            (area * to.stretch);
+        StressStep here = from;
+        if (g0_ < 0 && gamma1 > std::max(gamma0, 0.0)) {
+            // The boundary leaves zero as √γ_eff, which grows by at most an eighth in a step.
+            const double root0 = std::sqrt(std::max(gamma0, 0.0)), root1 = std::sqrt(gamma1);
+            const double parts = std::ceil(8 * (1 - root0 / root1));
+            for (double k = gamma0 < 0 ? 0 : 1; k < parts; ++k) {
+                const double root = std::lerp(root0, root1, k / parts);
+                const StressStep next =
+                    between(from, to, (root * root - gamma0) / (gamma1 - gamma0));
+                step(here, next);
+                here = next;
+            }
+        }
+        step(here, to);
+    }
+
+private:
+    void set_boundary(const StressStep& at) {
+        gamma = (g0_ + energy) / (area * at.stretch);
+        b = std::sqrt(std::max(gamma, 0.0) * contact_.contact_modulus * at.q);
+    }
+    [[nodiscard]] bool out_of_reach(const StressStep& at) const {
+        return b + contact_.pressure > tail * std::sqrt(at.T);
+    }
+    /// Returns the spacing of the nodes, which depends on T alone so that γ_eff(ζ_1) is a smooth
+    /// function of g0.
+    [[nodiscard]] double spacing(double T) const {
+        return h_last_ * std::exp2(-std::ceil(std::log2(T_last_ / T) / 2));
+    }
+
+    void step(const StressStep& from, const StressStep& to) {
+        const double dT = to.T - from.T, d_energy = to.energy - from.energy;
+        const double area0 = area, energy0 = energy, b0 = b;
+        const auto set_area = [&](double trial) {
+            area = std::clamp(trial, least_area, area0);
+            energy = energy0 + d_energy *
+                                   (energy_fraction(area0, contact_.beta) +
+                                    energy_fraction(area, contact_.beta)) /
+                                   2;
+            set_boundary(to);
+        };
+        set_area(area0);
+        // In a gap of the spectrum, or nearly a gap, the boundary moves first. A boundary out of
+        // reach is replaced by one that is just out of reach, which needs fewer nodes.
+        if (!(dT > 0) || b - b0 > 6 * std::sqrt(dT) || out_of_reach(to)) {
+            const double just_out = (tail + 1) * std::sqrt(to.T) - contact_.pressure;
+            const double boundary = std::min(b, just_out);
+            stress_->make_room(boundary, to.T, spacing(to.T));
+            stress_->move_boundary(boundary);
+            if (dT > 0) {
+                set_area(stress_->advance(boundary, dT));
+                stress_->accept(boundary);
+            }
+            rate_ = rate_before_ = 0;
+            return;
+        }
+        stress_->make_room(b, to.T, spacing(to.T));
+        const auto mismatch = [&](double trial) {
+            set_area(trial);
+            return stress_->advance(b, dT) - trial;
+        };
+        const double log_step = std::log(to.T / from.T);
+        const double guess = area0 - (2 * rate_ - rate_before_) * log_step;
+        double x = std::clamp(guess, 0.5 * area0, area0), f = mismatch(x);
+        for (int iteration = 0; iteration < 30 && std::abs(f) > 1e-7 * area0; ++iteration) {
+            const double x0 = x, f0 = f;
+            x = std::clamp(x0 - f0 / slope_, std::max(0.2 * x0, least_area), area0);
+            if (x == x0) break;
+            f = mismatch(x);
+            if (f != f0) slope_ = (f - f0) / (x - x0);
+        }
+        set_area(x + f);
+        stress_->accept(b);
+        rate_before_ = rate_;
+        rate_ = (area0 - area) / log_step;
+    }
+
+    const AdhesiveContact& contact_;
+    double g0_, T_last_ = 0, h_last_ = 0;
+    std::optional<StressNodes> stress_;
+    double rate_ = 0, rate_before_ = 0; // the area lost over ln T in the last two steps
+    double slope_ = -1;                 // derivative of the mismatch in the step before
 };
 
 } // namespace
 
-Magnifications magnifications(const AdhesiveContact& c, double spacing) {
-    Magnifications at;
+std::vector<StressStep> stress_steps(const AdhesiveContact& c, double spacing) {
+    std::vector<StressStep> at;
     const auto add = [&](const Magnification& m) {
-        at.q.push_back(m.q);
-        at.T.push_back(std::numbers::pi / 2 * c.contact_modulus * c.contact_modulus * m.slope);
-        at.energy.push_back(std::numbers::pi / 2 * c.contact_modulus * m.energy);
-        at.stretch.push_back(
-            area_factor(c.area_factor, 2 * std::numbers::pi * m.slope, c.tilt_cost));
+        at.push_back({m.q, std::numbers::pi / 2 * c.contact_modulus * c.contact_modulus * m.slope,
+                      std::numbers::pi / 2 * c.contact_modulus * m.energy,
+                      area_factor(c.area_factor, 2 * std::numbers::pi * m.slope, c.tilt_cost)});
     };
     // L = ln(q/q_first), q_first the smallest wavevector with any roughness.
     constexpr double first = -75; // start of ln(q/q_first - 1): T is 1e-32 of the whole
@@ -130,11 +276,12 @@ Magnifications magnifications(const AdhesiveContact& c, double spacing) {
     for (double x = first; x < 40 && std::log1p(std::exp(x)) < last; x += spacing)
         marks.push_back(std::log1p(std::exp(x)));
     std::sort(marks.begin(), marks.end());
-    add(c.spectrum.from_first(marks.front()));
+    double L = marks.front(), slope = c.spectrum.from_first(L).slope;
+    add(c.spectrum.from_first(L));
+    std::vector<double> ends;
     for (std::size_t i = 1; i < marks.size(); ++i) {
         // In halves as long as T grows too much.
-        std::vector<double> ends = {marks[i]};
-        double L = marks[i - 1], slope = c.spectrum.from_first(L).slope;
+        ends.push_back(marks[i]);
         while (!ends.empty()) {
             const Magnification m = c.spectrum.from_first(ends.back());
             const double half = (L + ends.back()) / 2;
@@ -148,82 +295,32 @@ Magnifications magnifications(const AdhesiveContact& c, double spacing) {
             ends.pop_back();
         }
     }
-    if (c.spectrum.q1() > (1 + 1e-12) * at.q.back()) add(c.spectrum.last()); // smooth up to there
+    if (c.spectrum.q1() > (1 + 1e-12) * at.back().q) add(c.spectrum.last()); // smooth up to there
     return at;
 }
 
-StressPath stress_path(const AdhesiveContact& c, const Magnifications& at, double g0, int cells) {
-    const std::size_t n = at.q.size();
+StressPath stress_path(const AdhesiveContact& c, const std::vector<StressStep>& steps, double g0,
+                       int nodes) {
     StressPath path;
-    double area = 1, energy = 0, gamma = 0, b = 0, l = 0;
-    const auto set_boundary = [&](std::size_t i) {
-        gamma = (g0 + energy) / (area * at.stretch[i]);
-        b = std::sqrt(std::max(gamma, 0.0) * c.contact_modulus * at.q[i]);
-        const double far = (b + c.pressure) / 12;
-        l = std::sqrt(at.T[i] + far * far);
-    };
+    for (auto* column : {&path.area, &path.energy, &path.gamma, &path.detachment_stress})
+        column->reserve(steps.size());
+    StressMarch state(c, g0);
     const auto record = [&] {
-        path.area.push_back(area);
-        path.energy.push_back(energy);
-        path.gamma.push_back(gamma);
-        path.detachment_stress.push_back(b);
+        path.area.push_back(state.area);
+        path.energy.push_back(state.energy);
+        path.gamma.push_back(state.gamma);
+        path.detachment_stress.push_back(state.b);
     };
     // Full contact up to the last magnification before the boundary comes into reach.
-    bool reached = false;
-    for (std::size_t i = 0; i < n && !reached; ++i) {
-        energy = at.energy[i];
-        set_boundary(i);
-        reached = b + c.pressure < out_of_reach * std::sqrt(at.T[i]);
-        if (!reached || i == 0) record();
+    for (const StressStep& at : steps) {
+        if (!state.set_full_contact(at) && !path.area.empty()) break;
+        record();
     }
     path.start = path.area.size() - 1;
-    if (!reached) return path;
-    energy = path.energy.back();
-    set_boundary(path.start);
-
-    StressCells stress(cells);
-    stress.start(b, c.pressure, at.T[path.start], l);
-    double rate = 0; // rate of the area in ln T, over the step before
-    for (std::size_t i = path.start + 1; i < n; ++i) {
-        const double dT = at.T[i] - at.T[i - 1], d_energy = at.energy[i] - at.energy[i - 1];
-        const double area0 = area, energy0 = energy, b0 = b, l0 = l;
-        // The state at the end of the step if `trial` of the area is left.
-        const auto try_area = [&](double trial) {
-            area = trial;
-            energy =
-                energy0 +
-                d_energy * (energy_fraction(area0, c.beta) + energy_fraction(area, c.beta)) / 2;
-            set_boundary(i);
-        };
-        try_area(area0);
-        if (!(dT > 0) || b - b0 > 6 * std::sqrt(dT)) { // a gap, or nearly one: P spreads hardly
-            stress.carry_over(b0, l0, b, l);
-            if (dT > 0) {
-                try_area(std::min(area0, stress.advance(0, l, l, dT)));
-                stress.accept();
-            }
-            rate = 0;
-        } else {
-            const double log_step = std::log(at.T[i] / at.T[i - 1]);
-            const auto mismatch = [&](double trial) {
-                try_area(trial);
-                return stress.advance(b - b0, l0, l, dT) - trial;
-            };
-            double x0 = area0, f0 = mismatch(x0);
-            double x1 = std::max(0.5 * area0, area0 - rate * log_step);
-            if (x1 == x0) x1 = std::clamp(x0 + f0, 0.5 * area0, area0);
-            for (int iteration = 0; iteration < 30 && x1 != x0; ++iteration) {
-                const double f1 = mismatch(x1);
-                if (std::abs(f1) < 1e-10 * area0 || f1 == f0) break;
-                const double next = std::clamp(x1 - f1 * (x1 - x0) / (f1 - f0), 0.2 * x1, area0);
-                x0 = x1;
-                f0 = f1;
-                x1 = next;
-            }
-            try_area(x1);
-            stress.accept();
-            rate = (area0 - area) / log_step;
-        }
+    if (path.area.size() == steps.size()) return path;
+    state.start(steps[path.start], steps.back(), nodes);
+    for (std::size_t i = path.start + 1; i < steps.size(); ++i) {
+        state.advance(steps[i - 1], steps[i]);
         record();
     }
     return path;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Solution of Eq. (2) for the distribution P(σ, ζ) of the stress, by finite volumes.
+// Solution of Eq. (2) for the distribution P(σ, ζ) of the stress, by finite differences.
 //
 // In the variance T = (π/2) E*² ∫ q³ C dq it is ∂P/∂T = ½ ∂²P/∂σ² with P = 0 at the detachment
 // stress, σ = -σ_a(ζ). Eq. (3), γ_eff(ζ) A*(ζ) = Δγ A*(ζ_1) - U_el(ζ), seems to couple all
@@ -19,15 +19,17 @@
 
 namespace asperity::theory {
 
-/// Steps of a solution: equidistant in ln(q - q_L), which is about ln T at the start and ln q
-/// later, refined so that T grows by at most e^spacing in a step; the edges of gaps in the spectrum
-/// are steps too. Members: q, stress variance T, elastic energy at full contact (π/2) E* ∫ q² C dq,
-/// area factor S.
-struct Magnifications {
-    std::vector<double> q, T, energy, stretch;
+/// A magnification at which a step of the solution ends.
+struct StressStep {
+    double q;       ///< ζ q_L [1/length]
+    double T;       ///< stress variance at full contact [stress²]
+    double energy;  ///< elastic energy at full contact, (π/2) E* ∫ q² C dq [energy/area]
+    double stretch; ///< area factor S
 };
-/// Returns the steps for a spacing of ln T.
-[[nodiscard]] Magnifications magnifications(const AdhesiveContact& contact, double spacing);
+/// Returns the steps of a solution: equidistant in ln(q - q_L), which is about ln T at the start
+/// and ln q later, refined so that T grows by at most e^spacing in a step; the edges of gaps in the
+/// spectrum are steps too.
+[[nodiscard]] std::vector<StressStep> stress_steps(const AdhesiveContact& contact, double spacing);
 
 /// Profiles A(ζ)/A0, u(ζ), γ_eff(ζ) and σ_a(ζ) at each magnification.
 struct StressPath {
@@ -37,9 +39,10 @@ struct StressPath {
     std::size_t start = 0;
 };
 
-/// Solves Eqs. (2) and (3) from ζ = 1 to ζ_1 with γ_eff(1) = g0. cells: number of cells of the
-/// stress. The error is of second order in the cells and in the spacing of ln T.
-[[nodiscard]] StressPath stress_path(const AdhesiveContact& contact, const Magnifications& at,
-                                     double g0, int cells);
+/// Solves Eqs. (2) and (3) from ζ = 1 to ζ_1 with γ_eff(1) = g0. nodes: least number of nodes of
+/// the stress in a standard deviation √T of the distribution. The error is of second order in the
+/// steps and of fourth order in 1/nodes.
+[[nodiscard]] StressPath stress_path(const AdhesiveContact& contact,
+                                     const std::vector<StressStep>& steps, double g0, int nodes);
 
 } // namespace asperity::theory
