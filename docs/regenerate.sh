@@ -76,7 +76,7 @@ done
 made $data/tables/dents.csv
 "$python" scenes/validation/works.py --out $place/errors --csv $data/tables/standard-errors.csv
 made $data/tables/standard-errors.csv
-"$python" scenes/validation/loss_sizes.py --sites 64 128 256 --tight 128 --out $place/loss-sizes --csv $data/tables/loss-sizes.csv
+"$python" scenes/validation/loss_sizes.py --out $place/loss-sizes --csv $data/tables/loss-sizes.csv
 made $data/tables/loss-sizes.csv
 "$python" $gallery/renormalised.py
 "$python" $gallery/fig5.py
