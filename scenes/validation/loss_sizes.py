@@ -41,7 +41,7 @@ def main() -> None:
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("--block", nargs="+", choices=BLOCKS, default=list(BLOCKS))
     words.add_argument("--sites", type=int, nargs="+", default=[64, 128, 256, 512])
-    words.add_argument("--tight", type=int, nargs="*", default=[128], help="sizes whose first surface is run at a tenth of the tolerance as well")
+    words.add_argument("--tight", type=int, nargs="*", default=[128], help="sizes of thin blocks whose first surface is run at a tenth of the tolerance as well")
     words.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/loss-sizes"))
     words.add_argument("--csv", type=pathlib.Path)
     asked = words.parse_args()
@@ -49,7 +49,7 @@ def main() -> None:
     table = Printed("block", "sites", "tolerance", "surfaces", "lost in", "deviation of mean in", "stated in", "lost out", "deviation of mean out",
                     "stated out")
     kinds = [(block, sites, TOLERANCE, SURFACES[block][sites]) for block in asked.block for sites in asked.sites if sites in SURFACES[block]]
-    kinds += [(block, sites, TIGHT, 1) for block in asked.block for sites in asked.tight if sites in SURFACES[block]]
+    kinds += [("thin", sites, TIGHT, 1) for sites in asked.tight if "thin" in asked.block]
     for block, sites, tolerance, surfaces in kinds:
         runs = [path_over(asked.out, block, sites, seed, tolerance) for seed in range(1, surfaces + 1)]
         cells = []
