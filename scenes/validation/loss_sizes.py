@@ -41,7 +41,8 @@ def main() -> None:
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("--block", nargs="+", choices=BLOCKS, default=list(BLOCKS))
     words.add_argument("--sites", type=int, nargs="+", default=[64, 128, 256, 512])
-    words.add_argument("--tight", type=int, nargs="*", default=[128], help="sizes of thin blocks whose first surface is run at a tenth of the tolerance as well")
+    words.add_argument("--tight", type=int, nargs="*", default=[128],
+                       help="sizes of thin blocks whose first surface is run at a tenth of the tolerance as well")
     words.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/loss-sizes"))
     words.add_argument("--csv", type=pathlib.Path)
     asked = words.parse_args()
