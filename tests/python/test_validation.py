@@ -7,16 +7,30 @@ import sys
 import numpy as np
 import pytest
 
-from conftest import ROOT
+import asperity
+from conftest import ROOT, command
 
 sys.path.insert(0, str(ROOT / "scenes/validation"))
 import adhesion
 import free_edges
 import jumps
+import kept
 import rate
 import rings
 import stated_errors
 import tables
+
+
+def test_a_run_is_kept_if_it_is_whole(tmp_path):
+    """One that was stopped, here by a limit of time, is made again; one that its scene ends after some points is whole."""
+    scene, place = ROOT / "scenes/first-contact.toml", tmp_path / "run"
+    keys = {"surface.sites": 16, "block.thickness": 16, "drive.max_steps": 20}
+    command("run", scene, "--out", place, "--wall-limit", "1s", "--progress", "off", expect=75)
+    assert asperity.load(place).stopped == "wall_limit"
+    assert kept.run(scene, keys, place).stopped == "max_steps"
+    made = (place / "result.json").stat().st_mtime_ns
+    kept.run(scene, keys, place)
+    assert (place / "result.json").stat().st_mtime_ns == made
 
 
 def test_rings_without_adhesion_are_hertz():
