@@ -21,7 +21,7 @@ import tempfile
 from scaling import mpirun
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-#: At a loose tolerance, for iterations take no memory of their own.
+#: At a loose tolerance, which saves hours; at 1024 sites it changes the peaks of a state over a wall and over atoms by 1 MB at most.
 STATE = {"surface.rms": 4, "surface.rolloff": 3, "drive.mode": "quasistatic", "drive.path": ["relax"], "output.fields": ["relaxed"],
          "output.checkpoint": "none", "drive.tolerance": 0.5}
 WALL = STATE | {"interface.kind": "wall", "interface.adhesion": "50 mJ/m2"}

@@ -3,7 +3,6 @@
 """Runs that are kept, so that a script that is started again goes on where it was stopped."""
 import os
 import pathlib
-import shutil
 import sys
 from typing import Any
 
@@ -12,10 +11,10 @@ import asperity
 
 
 def run(scene: dict | os.PathLike, keys: dict[str, Any], place: pathlib.Path) -> asperity.Result:
-    """Returns the result in this directory, made now unless a whole one is there. Its scene is not compared with the one that is asked for."""
+    """Returns the result in this directory, made now unless a whole one is there; one that was stopped is refused by the program, which says how
+    to go on with it. Its scene is not compared with the one that is asked for."""
     if (place / "result.json").exists():
         result = asperity.load(place)
         if result.stopped in ("", "max_steps"):
             return result
-        shutil.rmtree(place)
     return asperity.run(scene, keys, place, progress=False)

@@ -22,11 +22,13 @@ import tables
 
 
 def test_a_run_is_kept_if_it_is_whole(tmp_path):
-    """One that was stopped, here by a limit of time, is made again; one that its scene ends after some points is whole."""
-    scene, place = ROOT / "scenes/first-contact.toml", tmp_path / "run"
+    """One that was stopped, here by a limit of time, is refused and stays; one that its scene ends after some points is whole."""
+    scene, stopped, place = ROOT / "scenes/first-contact.toml", tmp_path / "stopped", tmp_path / "run"
     keys = {"surface.sites": 16, "block.thickness": 16, "drive.max_steps": 20}
-    command("run", scene, "--out", place, "--wall-limit", "1s", "--progress", "off", expect=75)
-    assert asperity.load(place).stopped == "wall_limit"
+    command("run", scene, "--out", stopped, "--wall-limit", "1s", "--progress", "off", expect=75)
+    with pytest.raises(asperity.SceneError, match="--resume auto"):
+        kept.run(scene, keys, stopped)
+    assert asperity.load(stopped).stopped == "wall_limit" and (stopped / "checkpoint.h5").exists()
     assert kept.run(scene, keys, place).stopped == "max_steps"
     made = (place / "result.json").stat().st_mtime_ns
     kept.run(scene, keys, place)
